@@ -3,6 +3,7 @@
 use super::number::{digits, relative, rounded};
 use super::table::{Columns, DataTable};
 use super::text::markdown_code;
+use crate::paper::claims::scientific;
 use crate::paper::published::{
     ALIKE, Contradiction, DataFile, Fit, Published, RepeatedForce, RepeatedSeries,
 };
@@ -136,28 +137,30 @@ pub(crate) fn contradictions(found: &[Contradiction]) -> DataTable<'_> {
         "`tristack crosscheck --profile published` (contradictions.csv, published.json), `tristack report --published` (tables/contradictions.csv)",
     )
     .text("what", |row| row.what.clone())
-    .means("what they are numbers of, with its unit")
-    .shown("of what")
+    .means("the quantity, with its unit")
+    .shown("quantity")
     .number("first", "", |row| row.quoted[0].value)
-    .means("the one")
-    .shown_as("the one", digits::<8>)
+    .means("the first number")
+    .shown("first number")
+    .cell(|row| row.quoted[0].printed.clone())
     .text("first_source", |row| row.quoted[0].source.clone())
     .means("where it stands")
-    .shown("stands in")
+    .shown("source")
     .cell(|row| in_words(&row.quoted[0].source))
     .number("second", "", |row| row.quoted[1].value)
-    .means("the other")
-    .shown_as("the other", digits::<8>)
+    .means("the second number")
+    .shown("second number")
+    .cell(|row| row.quoted[1].printed.clone())
     .text("second_source", |row| row.quoted[1].source.clone())
-    .means("where that stands")
-    .shown("stands in")
+    .means("where it stands")
+    .shown("source")
     .cell(|row| in_words(&row.quoted[1].source))
     .number("size", "1", |row| row.size())
-    .means("the other less the one, relative to the one; of forces, to F + 3")
-    .shown_as("apart", relative)
+    .means("the second number less the first, relative to the first; of forces, to F + 3")
+    .shown_as("difference", relative)
     .text("because", |row| row.because.clone())
-    .means("what made them, where that is known")
-    .shown("made by")
+    .means("the settings that give them, where they are known; of two different ones first those of the first number")
+    .shown("given by")
     .rows(found)
 }
 
@@ -202,10 +205,20 @@ pub(crate) fn published_tables(published: &Published) -> [DataTable<'_>; 4] {
 
 /// How much is reproduced, in a sentence.
 pub(crate) fn published_summary(published: &Published) -> String {
+    published_summary_with(published, &format!("{ALIKE:e} of F + 3"))
+}
+
+/// The same with mathematics in TeX.
+pub(crate) fn published_summary_in_tex(published: &Published) -> String {
+    let alike = scientific(ALIKE, 0);
+    published_summary_with(published, &format!("${alike}$ of $F + 3$"))
+}
+
+fn published_summary_with(published: &Published, alike: &str) -> String {
     let count = |wanted: Fit| published.fits().filter(|&fit| fit == wanted).count();
     let (all, every_digit) = (published.fits().count(), count(Fit::EveryDigit));
     let mut text = format!(
-        "{every_digit} of {all} published numbers and series are reproduced in every printed digit, {} to {ALIKE:e} of F + 3",
+        "{every_digit} of {all} published numbers and series are reproduced in every printed digit, {} to within {alike}",
         count(Fit::Alike)
     );
     for (fit, said) in [

@@ -11,6 +11,8 @@ pub struct Quotation {
     pub source: String,
     /// The number.
     pub value: f64,
+    /// The number as it is printed there; three digits of one that is computed.
+    pub printed: String,
 }
 
 /// Two numbers for one thing that do not fit together.
@@ -104,6 +106,7 @@ fn statement(what: impl Into<String>, source: impl Into<String>, value: f64) -> 
         quoted: Quotation {
             source: source.into(),
             value,
+            printed: short(value),
         },
         half_unit: 0.0,
         made: String::new(),
@@ -147,8 +150,8 @@ fn of_program(checkout: &Checkout) -> Vec<Statement> {
 /// The name of a file against the parameter in its head.
 fn of_head(file: &DataFile) -> Vec<Statement> {
     let what = match file.subject {
-        Subject::Stiffnesses { .. } => format!("floor friction of {}", file.path),
-        Subject::Frictions { .. } => format!("stiffness of {}, m g/r", file.path),
+        Subject::Stiffnesses { .. } => format!("floor friction in {}", file.path),
+        Subject::Frictions { .. } => format!("stiffness in {}, in m g/r", file.path),
         _ => return Vec::new(),
     };
     let (Subject::Stiffnesses { friction: named } | Subject::Frictions { stiffness: named }) =
@@ -196,7 +199,7 @@ fn of_settings(forces: &[PublishedForce]) -> Vec<Statement> {
             ),
         ];
         for (what, said, value, made) in made {
-            let source = format!("what gives {}", own.file);
+            let source = format!("run that gives {}", own.file);
             let farthest = Statement {
                 made,
                 ..statement(what, &*source, value)
@@ -217,22 +220,45 @@ fn of_settings(forces: &[PublishedForce]) -> Vec<Statement> {
 /// A number with at most three digits.
 fn short(value: f64) -> String {
     let rounded: f64 = format!("{value:.2e}").parse().unwrap_or(value);
-    format!("{rounded:e}")
+    match (1e-2..1e3).contains(&rounded.abs()) {
+        true => rounded.to_string(),
+        false => format!("{rounded:e}"),
+    }
 }
 
 fn of_force(published: &PublishedForce) -> Statement {
     let stack = &published.stack;
     let [speed, step] = published.labelled;
+    // The friction with the digits of the files.
+    let friction = libm::round(1e6 * stack.floor_friction) / 1e6;
+    let settings = match published.labelled {
+        PAPER_SETTINGS => String::new(),
+        _ => format!(", wall speed {speed:e}, time step {step:e}"),
+    };
+    let value = published.value;
+    let of_force = statement(
+        format!(
+            "F in m g at μ = {friction}, stiffness {}{settings}",
+            stack.stiffness
+        ),
+        format!("{}, line {}", published.file, published.line),
+        value.value,
+    );
     Statement {
+        quoted: Quotation {
+            printed: format!("{:.*}", value.decimals, value.value),
+            ..of_force.quoted
+        },
+        what: of_force.what,
         lift: 3.0,
-        half_unit: published.value.half_unit(),
+        half_unit: value.half_unit(),
         made: match &published.origin {
             Some(origin) => {
                 let stopped = origin.end_time.map_or_else(String::new, |time| {
                     format!(", stopped at t = {time} √(r/g) while the force rose")
                 });
                 format!(
-                    "start {} at {} √(g r), step {} √(r/g){stopped}",
+                    "start A = {}, wall speed {} √(g r), time step {} √(r/g){stopped}",
                     origin.start,
                     short(origin.wall_speed),
                     short(origin.time_step)
@@ -240,13 +266,5 @@ fn of_force(published: &PublishedForce) -> Statement {
             }
             None => "not reproduced".to_owned(),
         },
-        ..statement(
-            format!(
-                "F at μ = {:.6}, stiffness {}, wall speed {speed:e}, time step {step:e}, m g",
-                stack.floor_friction, stack.stiffness
-            ),
-            format!("{}, line {}", published.file, published.line),
-            published.value.value,
-        )
     }
 }

@@ -3,7 +3,7 @@
 use super::super::document::{Block, Section};
 use crate::output::published::PROTOCOL;
 use crate::output::{
-    contradictions, published_files, published_forces, published_series, published_summary,
+    contradictions, published_files, published_forces, published_series, published_summary_in_tex,
 };
 use crate::paper::published::Published;
 
@@ -11,7 +11,7 @@ pub(super) fn section(published: &Published) -> Section {
     let blocks = vec![
         Block::paragraph(format!(
             "The data of the authors’ public repository against native runs. {PROTOCOL} {}.",
-            published_summary(published)
+            published_summary_in_tex(published)
         )),
         Block::long_table(
             true,
@@ -26,7 +26,8 @@ pub(super) fn section(published: &Published) -> Section {
         ),
         Block::table(
             "contradictions",
-            "Numbers that data files, their heads, the program and the paper give for one thing, and that do not fit together.",
+            "Numbers that data files, their heads, the program and the paper give for the same quantity, and that differ by more than \
+             their digits allow. Differences are relative; of forces, to $F + 3$.",
             &contradictions(&published.contradictions),
         ),
         Block::long_table(

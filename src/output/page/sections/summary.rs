@@ -6,7 +6,7 @@ use crate::code::Code;
 use crate::model::{CRITICAL_FRICTION, ContactConvention, Power, Stack};
 use crate::output::number::{digits, friction_in_tex, percent, power_of_ten, stiffness_in_tex};
 use crate::output::table::Columns;
-use crate::output::{DataTable, published_summary};
+use crate::output::{DataTable, published_summary_in_tex};
 use crate::paper::claims::{ClaimJudgement, ClaimVerdict, list};
 use crate::paper::published::{Published, RepeatedForce};
 use crate::paper::reproduction::{Curves, Reproduction, SCALING_FRICTIONS, TheoryPoint};
@@ -110,7 +110,7 @@ fn of_codes(reproduction: &Reproduction) -> String {
     let codes = agreements.iter().map(|own| own.code.to_string());
     let largest = agreements.iter().map(|own| own.largest_error);
     format!(
-        "At the stacks of Fig. 2(a), {agreeing} of {rows} yield forces of {} agree with the exact quasi-static limit under the \
+        "At the stiffnesses of Fig. 2(a), {agreeing} of {rows} yield forces of {} agree with the exact quasi-static limit under the \
          contact convention of the code, which is not the paper’s in all of them; the largest error is {} of $F + 3$ \
          ([](#figure-yield-curves), [](#table-yield_curves)).",
         list(codes),
@@ -131,10 +131,10 @@ fn of_published(published: &Published) -> String {
         )
     };
     format!(
-        "The published points: {} ([](#table-published)). They show the exact limit, but for wall speed, start and end of the runs, \
-         which differ from point to point: up to {} of $F + 3$ in Fig. 2(a), {} in Fig. 2(b). {} pairs of numbers for one thing do not fit \
-         together ([](#table-contradictions)).",
-        published_summary(published),
+        "The published data: {} ([](#table-published)). The points show the exact limit, but for wall speed, start and end of the runs, \
+         which differ from point to point: they are up to {} of $F + 3$ off in Fig. 2(a), {} in Fig. 2(b). {} pairs of numbers for the same \
+         quantity do not fit together ([](#table-contradictions)).",
+        published_summary_in_tex(published),
         farthest("fig2a"),
         farthest("fig2b"),
         published.contradictions.len()
@@ -164,8 +164,8 @@ fn of_rows(reproduction: &Reproduction) -> String {
     };
     format!(
         "Of {} judged rows {} are of runs on this machine and {recorded} of recorded runs: {} agree, {} differ, {} \
-         inconclusive{named}, {} without yield, {} failed or missing. Not among them: {} rows at \
-         the paper’s literal settings ([](#table-literal)), of which {} agree.",
+         inconclusive{named}, {} without yield, {} failed or missing. Not among them are those at \
+         the paper’s literal settings ([](#table-literal)), of which {} of {} agree.",
         rows.len(),
         rows.len() - recorded,
         count(Verdict::Agrees),
@@ -173,12 +173,12 @@ fn of_rows(reproduction: &Reproduction) -> String {
         count(Verdict::Inconclusive),
         count(Verdict::NoYield),
         count(Verdict::Failed) + count(Verdict::Missing),
-        reproduction.literal.len(),
         reproduction
             .literal
             .iter()
             .filter(|row| row.verdict() == Verdict::Agrees)
-            .count()
+            .count(),
+        reproduction.literal.len()
     )
 }
 
@@ -218,18 +218,25 @@ fn of_laws(reproduction: &Reproduction) -> Option<String> {
     let fitted = laws.exponents.iter();
     let fitted = fitted.map(|own| format!("{:.4} ({})", own.exponent, own.code));
     let fitted: Vec<String> = fitted.collect();
+    let (styles, spread) = match agreements.len() {
+        1 => (String::new(), String::new()),
+        styles => (
+            format!(" of {styles} styles"),
+            format!(
+                ", and these differ by convention alone: at $\\mu = {}$, stiffness {} the floor begins to slip at $F = {}$ ({}) to {} ({})",
+                SPREAD.0,
+                SPREAD.1,
+                digits::<4>(lowest.0),
+                lowest.1,
+                digits::<4>(highest.0),
+                highest.1
+            ),
+        ),
+    };
     Some(format!(
-        "Hertz contacts: the onset of slip in {agreeing} of {rows} rows of {} styles agrees with its exact limit, and these differ \
-         by convention alone: at $\\mu = {}$, stiffness {} the floor begins to slip at $F = {}$ ({}) to {} ({}). At $\\mu_c$ the \
+        "Hertz contacts: the onset of slip in {agreeing} of {rows} rows{styles} agrees with its exact limit{spread}. At $\\mu_c$ the \
          largest $F + 3$, which comes later, grows between $10^3$ and $10^6$ to the power {}, and 2/5 for $\\epsilon \\to 0$, where linear springs have 1/2 \
          ([](#figure-laws), [](#table-law_forces)).",
-        agreements.len(),
-        SPREAD.0,
-        SPREAD.1,
-        digits::<4>(lowest.0),
-        lowest.1,
-        digits::<4>(highest.0),
-        highest.1,
         fitted.join(", ")
     ))
 }

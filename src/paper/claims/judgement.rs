@@ -16,19 +16,32 @@ pub struct ClaimJudgement {
     pub verdict: ClaimVerdict,
     /// The quantities compared and their values, or the reason why there are none.
     pub evidence: String,
+    /// What the verdict rests on; `None` of an untestable claim.
+    pub measure: Option<Measure>,
     /// The verdict on the same statement by the published data; `None` without them, or where they say nothing about it.
-    pub as_published: Option<SecondVerdict>,
+    pub as_published: Option<FoundVerdict>,
     /// Correction; only where it has been checked to hold.
     pub erratum: Option<String>,
 }
 
-/// A verdict by the published data instead of native runs.
+/// A verdict that a check has found.
 #[derive(Debug, Clone, PartialEq)]
-pub struct SecondVerdict {
+pub struct FoundVerdict {
     /// The verdict.
     pub verdict: ClaimVerdict,
-    /// The quantities compared and their values, or the reason why there are none.
+    /// The quantities compared and their values.
     pub evidence: String,
+    /// What the verdict rests on.
+    pub measure: Measure,
+}
+
+/// How far a claim is from what was found, in the check's own measure.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Measure {
+    /// The deviation.
+    pub deviation: f64,
+    /// The largest one with which the claim holds as stated.
+    pub bound: f64,
 }
 
 /// Judges every claim of `register` by the formulas of `paper` and by `runs`, without which claims on DEM runs are
@@ -44,26 +57,32 @@ pub fn judge(
 }
 
 fn judge_claim(claim: &Claim, paper: &PaperTheory, runs: Option<&Reproduction>) -> ClaimJudgement {
-    let verdict_of = |found: Result<Finding, String>| match found {
-        Ok(finding) => {
-            let allowed = claim.allowed.as_ref().map(|allowed| allowed.size);
-            (finding.verdict(allowed), finding.evidence)
+    let verdict_of = |finding: Finding| {
+        let allowed = claim.allowed.as_ref().map(|allowed| allowed.size);
+        let Finding {
+            deviation, bound, ..
+        } = finding;
+        FoundVerdict {
+            verdict: finding.verdict(allowed),
+            evidence: finding.evidence,
+            measure: Measure { deviation, bound },
         }
-        Err(reason) => (ClaimVerdict::Untestable, reason),
     };
-    let (verdict, evidence) = verdict_of(examine(claim, paper, runs));
+    let (verdict, evidence, measure) = match examine(claim, paper, runs).map(verdict_of) {
+        Ok(found) => (found.verdict, found.evidence, Some(found.measure)),
+        Err(reason) => (ClaimVerdict::Untestable, reason, None),
+    };
     let check = claim.check.as_deref().and_then(checks::find);
     let published = runs.and_then(|runs| runs.published.as_ref());
     let as_published = check.zip(published);
     let as_published = as_published.and_then(|(check, data)| check.run_as_published(paper, data));
-    let as_published = as_published
-        .and_then(Result::ok)
-        .map(|found| verdict_of(Ok(found)));
+    let as_published = as_published.and_then(Result::ok).map(verdict_of);
     ClaimJudgement {
         claim: claim.clone(),
         verdict,
         evidence,
-        as_published: as_published.map(|(verdict, evidence)| SecondVerdict { verdict, evidence }),
+        measure,
+        as_published,
         erratum: erratum(claim, paper, runs, verdict),
     }
 }

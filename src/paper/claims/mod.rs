@@ -19,7 +19,8 @@ mod truth;
 
 pub use checks::check_names;
 pub use finding::ClaimVerdict;
-pub use judgement::{ClaimJudgement, SecondVerdict, judge};
+pub(crate) use finding::ROUND_OFF;
+pub use judgement::{ClaimJudgement, FoundVerdict, Measure, judge};
 pub(crate) use notation::{list, number, powers_in_tex, scientific, values};
 pub use printed::PaperTheory;
 pub use register::{Allowance, Claim, ClaimKind, Erratum, Register, RegisterError};

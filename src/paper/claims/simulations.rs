@@ -1,6 +1,8 @@
 //! What the paper's statements on its simulations are checked with: native runs, or the data that the authors have published.
 
+use super::notation::{number, scientific};
 use crate::code::Code;
+use crate::model::Stack;
 use crate::paper::published::Published;
 use crate::paper::reproduction::{FITTED_FROM, ForceSeries, Reproduction, slope};
 use crate::study::yield_force::{Judgement, PAPER_TIME_STEP, PAPER_WALL_SPEED};
@@ -23,6 +25,10 @@ pub(crate) struct Simulations {
     pub time_steps: Vec<(f64, f64)>,
     /// f(t).
     pub series: ForceSeries,
+    /// Where the peak of f(t) stands, if not in its rows, with a space before it.
+    pub peak_source: String,
+    /// Whether speeds and time steps are labels: the program that made them has the units √(g r) and √(r/g).
+    labelled: bool,
 }
 
 /// The slope of ln(F + 3) over ln(k_n r/(m g)) from 10³ on.
@@ -31,6 +37,8 @@ pub(crate) struct FittedExponent {
     pub friction: f64,
     /// The slope.
     pub exponent: f64,
+    /// The slope of the exact limit over the same stiffnesses.
+    pub exact: f64,
     /// What the uncertainties of the forces can do to it, where they are known.
     pub uncertainty: Option<f64>,
 }
@@ -53,6 +61,7 @@ impl Simulations {
                 .map(|own| FittedExponent {
                     friction: own.mu,
                     exponent: own.exponent,
+                    exact: own.exact,
                     uncertainty: Some(own.uncertainty),
                 })
                 .collect(),
@@ -63,6 +72,8 @@ impl Simulations {
                 .filter_map(|own| Some((own.time_step, own.peak_force?)))
                 .collect(),
             series: runs.force_series.clone(),
+            peak_source: String::new(),
+            labelled: false,
         }
     }
 
@@ -78,19 +89,27 @@ impl Simulations {
         };
         let over_stiffness = forces("fig2b");
         let mut frictions: Vec<f64> = over_stiffness.iter().map(|row| row[0]).collect();
+        frictions.sort_by(f64::total_cmp);
         frictions.dedup();
         let exponents = frictions.into_iter().map(|friction| {
-            let own = over_stiffness.iter();
-            let own = own.filter(|row| row[0] == friction && row[1] >= FITTED_FROM);
-            let points: Vec<(f64, f64)> = own.map(|row| (row[1], row[2] + 3.0)).collect();
+            let own = published.of_figure("fig2b").filter(|own| {
+                own.stack.floor_friction == friction && own.stack.stiffness >= FITTED_FROM
+            });
+            let points = own.filter_map(|own| {
+                let stiffness = own.stack.stiffness;
+                Some(((stiffness, own.load()), (stiffness, own.limit? + 3.0)))
+            });
+            let (points, limits): (Vec<_>, Vec<_>) = points.unzip();
             FittedExponent {
                 friction,
                 exponent: slope(&points),
+                exact: slope(&limits),
                 uncertainty: None,
             }
         });
         let excess = |force: f64, limit: Option<f64>| limit.map(|limit| force / limit - 1.0);
         let speeds = published.of_figure("figS3b");
+        let (series, peak_source) = series(published);
         Self {
             who: "the published data",
             read: "",
@@ -104,28 +123,55 @@ impl Simulations {
                 .of_figure("figS3a")
                 .map(|own| (own.labelled[1], own.value.value))
                 .collect(),
-            series: series(published),
+            series,
+            peak_source,
+            labelled: true,
         }
+    }
+
+    /// What the settings of runs of a stack are, if they are labels, with a semicolon before it.
+    pub fn labels(&self, stack: &Stack) -> String {
+        if !self.labelled {
+            return String::new();
+        }
+        format!(
+            "; settings as labelled: with the units of the program the speed is ${0}$ times smaller, the time step ${0}$ times larger",
+            number(stack.stiffness.sqrt())
+        )
     }
 }
 
-/// The first of the published series; without rows where there is none.
-fn series(published: &Published) -> ForceSeries {
+/// The first of the published series, and where its peak stands: its rows lie so far apart that they miss it, but Fig. 2(a) has
+/// a force of the same stack. Without rows where there is no series.
+fn series(published: &Published) -> (ForceSeries, String) {
     let own = published.series.first().map(|own| &own.published);
     let rows = own.map_or(&[][..], |own| &own.rows);
     let rows: Vec<(f64, f64)> = rows
         .iter()
         .map(|(_, [time, force])| (time.value, force.value))
         .collect();
-    let peak = rows.iter().map(|row| row.1).reduce(f64::max);
-    ForceSeries {
+    let highest = rows.iter().map(|row| row.1).reduce(f64::max);
+    let mut forces = published.of_figure("fig2a");
+    let force = forces.find(|force| own.is_some_and(|own| own.stack == force.stack));
+    let gaps = rows.windows(2).filter(|pair| Some(pair[1].1) == highest);
+    let gap = gaps.map(|pair| pair[1].1 - pair[0].1).next();
+    let source = force.zip(gap).map(|(force, gap)| {
+        format!(
+            " ({} line {}; the rows of $f(t)$ are ${}mg$ apart there)",
+            force.file.replace("/data/", ": "),
+            force.line,
+            scientific(gap, 0)
+        )
+    });
+    let series = ForceSeries {
         rows,
         slip_force: None,
-        peak_force: peak,
+        peak_force: force.map(|force| force.value.value).or(highest),
         limit: own.and_then(|own| own.limit),
         wall_speed: PAPER_WALL_SPEED,
         time_step: PAPER_TIME_STEP,
-    }
+    };
+    (series, source.unwrap_or_default())
 }
 
 /// Friction, stiffness and yield force of the native rows that have one.

@@ -5,7 +5,9 @@ use super::super::document::{
 };
 use crate::output::DataTable;
 use crate::output::table::Columns;
-use crate::paper::claims::{Allowance, ClaimJudgement, ClaimVerdict};
+use crate::paper::claims::{
+    Allowance, ClaimJudgement, ClaimVerdict, Measure, ROUND_OFF, scientific,
+};
 
 /// The verdicts in the order of the page.
 const VERDICTS: [ClaimVerdict; 4] = [
@@ -72,10 +74,12 @@ pub(super) fn register(claims: &[ClaimJudgement]) -> Section {
     let blocks = vec![
         Block::paragraph(
             "Every checkable statement of paper and supplement, displayed equations included. Each verdict \
-             is derived by running the check; the register is `reference/claims.toml`. A formula or number holds if it is \
-             right to what is known of it. Where the words of a claim leave room, as “agree well” or “of order” do, it \
-             holds approximately up to the deviation that is given with it: relative, or in decades of an order of \
-             magnitude.",
+             is derived by running the check; the register is `reference/claims.toml`. A formula holds if it is \
+             right to round-off, any other statement up to the deviation that is given with it. Where the words of a claim leave room, \
+             as “agree well” or “of order” do, it holds approximately up to a larger one, which is given with its unit and the reason. \
+             “As published” is a second verdict, by the data of the authors. Native is the DEM of tristack, which has the paper’s \
+             contact law; exact limit and path of equilibria are those of its theory for a wall that moves infinitely slowly; the elastic \
+             equation is Eq. (8).",
         ),
         Block::Claims(Claims {
             table: PageTable::new("claims", caption, &claims_table(claims), table),
@@ -132,28 +136,47 @@ fn on_page((number, own): Numbered, equations: &[PageEquation]) -> PageClaim {
     }
 }
 
-/// The evidence, what the words of an approximate claim are taken to allow, and a full stop before its sources.
+/// The evidence, the deviation where it is not held to round-off, what the words of a claim that does not simply hold are taken to
+/// allow, and a full stop before its sources.
 fn evidence(own: &ClaimJudgement) -> String {
+    let criterion = criterion(own.measure.as_ref());
     let allowed = own.claim.allowed.as_ref();
-    let allowed = allowed.filter(|_| own.verdict == ClaimVerdict::Approximately);
-    let is_last = own.claim.see.is_empty() && allowed.is_none();
+    let allowed = allowed.filter(|_| own.verdict != ClaimVerdict::Holds);
+    let allowed = allowed.map(|allowed| {
+        let Allowance { size, of, because } = allowed;
+        format!("Allowed: {size} of {of}; {because}.")
+    });
+    let more: Vec<String> = criterion.into_iter().chain(allowed).collect();
+    let is_last = own.claim.see.is_empty() && more.is_empty();
     let stop = if is_last || ends_a_sentence(&own.evidence) {
         ""
     } else {
         "."
     };
-    let allowed = allowed.map(|allowed| {
-        let Allowance { size, of, because } = allowed;
-        format!(" Allowed: {size} of {of}; {because}.")
-    });
-    format!("{}{stop}{}", own.evidence, allowed.unwrap_or_default())
+    let sentences = std::iter::once(format!("{}{stop}", own.evidence)).chain(more);
+    sentences.collect::<Vec<_>>().join(" ")
+}
+
+/// The deviation, and up to which a claim holds, where that is more than the round-off of formulas.
+fn criterion(measure: Option<&Measure>) -> Option<String> {
+    let Measure { deviation, bound } = *measure.filter(|own| own.bound > ROUND_OFF)?;
+    Some(format!(
+        "Deviation ${}$; it holds up to ${}$.",
+        scientific(deviation, 1),
+        scientific(bound, 1)
+    ))
 }
 
 /// The verdict by the published data, and its evidence.
 fn as_published(own: &ClaimJudgement) -> Option<String> {
     let second = own.as_published.as_ref()?;
     let words = in_words(second.verdict);
-    Some(format!("As published: {words}. {}", second.evidence))
+    let criterion = criterion(Some(&second.measure));
+    let criterion = criterion.map_or_else(String::new, |criterion| format!(" {criterion}"));
+    Some(format!(
+        "As published: {words} ({}).{criterion}",
+        second.evidence
+    ))
 }
 
 fn ends_a_sentence(text: &str) -> bool {
@@ -216,17 +239,25 @@ fn claims_of(claims: Vec<Numbered>) -> DataTable {
         Some(own.claim.allowed.as_ref()?.because.clone())
     })
     .means("why its words allow as much")
+    .number("deviation", "1", |(_, own)| Some(own.measure.as_ref()?.deviation))
+    .means("distance of the claim from what was found, in the measure that `evidence` names")
+    .number("holds_to", "1", |(_, own)| Some(own.measure.as_ref()?.bound))
+    .means("largest deviation with which it holds as stated")
     .text("evidence", |(_, own)| own.evidence.clone())
     .means("what was compared, and the numbers")
     .shown("evidence")
-    .cell(|(_, own)| {
-        let second = as_published(own);
-        second.map_or_else(|| own.evidence.clone(), |second| format!("{}. {second}", own.evidence))
+    .cell(|(_, own)| match as_published(own) {
+        Some(second) => format!("{} {second}", evidence(own)),
+        None => evidence(own),
     })
     .text("published_verdict", |(_, own)| {
         Some(own.as_published.as_ref()?.verdict.to_string())
     })
     .means("the verdict by the data that the authors have published; absent without them, or where they say nothing about it")
+    .number("published_deviation", "1", |(_, own)| {
+        Some(own.as_published.as_ref()?.measure.deviation)
+    })
+    .means("`deviation` by these data")
     .text("published_evidence", |(_, own)| {
         Some(own.as_published.as_ref()?.evidence.clone())
     })

@@ -109,7 +109,9 @@ pub(super) fn range_of_states() -> String {
 
 fn at_solutions() -> String {
     let states = range_of_states();
-    format!("put in solutions of the five unreduced equations (Newton's method; {states})")
+    format!(
+        "the two sides at solutions of the five unreduced equations (Newton's method; {states})"
+    )
 }
 
 pub(crate) fn at_states(deviation: impl Fn(&YieldState) -> f64) -> Finding {

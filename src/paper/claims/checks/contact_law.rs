@@ -40,7 +40,8 @@ pub(crate) const CHECKS: &[Check] = &[
         })
     }),
     Check::theory("tangential-spring", |paper| {
-        let compared = r"power of a spring $k_t$ and of a dashpot $\eta_t$";
+        let compared =
+            r"power of the printed force against those of a spring $k_t$ and of a dashpot $\eta_t$";
         at_samples(30, compared, |sample| {
             let contact = Sliding {
                 damping: 0.6,

@@ -2,7 +2,7 @@
 
 use super::Check;
 use crate::model::{CRITICAL_FRICTION, Stack};
-use crate::paper::claims::finding::{Finding, violation, worst};
+use crate::paper::claims::finding::{Finding, relative, violation, worst};
 use crate::paper::claims::notation::{
     FRICTION, STIFFNESS, fixed, number, range, scientific, values,
 };
@@ -19,16 +19,20 @@ pub(crate) const CHECKS: &[Check] = &[
         let estimate = radius * density * GRAVITY / modulus;
         let factor = epsilon / estimate;
         let evidence = format!(
-            "with $k_n = El$, the order of a line contact's stiffness, $mg/(k_n r) = {factor:.3}L\\rho g/E$ for $L = r$: {:.2} \
-             decades",
-            decades(epsilon, estimate)
+            "with $k_n = El$, the order of a line contact's stiffness, $mg/(k_n r) = {factor:.3}L\\rho g/E$ for $L = r$, {:.3} decades off, and with \
+             $L = 2r$ {:.3}",
+            decades(epsilon, estimate),
+            decades(epsilon, 2.0 * estimate)
         );
         Finding::new(decades(epsilon, estimate), 0.0, evidence)
     }),
     Check::theory("epsilon-of-elastomer", |paper| {
         let epsilon = elastomer(paper);
         let found = scientific(epsilon, 3);
-        let evidence = format!("$L\\rho g/E = {found}$ for the values given");
+        let evidence = format!(
+            "$L\\rho g/E = {found}$ for the values given: {:.3} decades off",
+            decades(epsilon, paper.elastomer_epsilon)
+        );
         Finding::new(decades(epsilon, paper.elastomer_epsilon), 0.0, evidence)
     }),
     Check::theory("elastomer-in-range", |paper| {
@@ -120,16 +124,22 @@ pub(crate) const CHECKS: &[Check] = &[
         let mu = 0.3;
         let yields = stiffnesses.map(|stiffness| yield_force(&paper.stack(mu, stiffness)));
         let evidence = format!(
-            "the yield forces of all three in the exact limit at {} are {} (in $mg$); the stiffnesses span {decades:.0} decades, \
-             in steps of one",
+            "the authors' program (compress.c) has springs of {} and {} $mg/r$ times a common factor; the stiffnesses span {decades:.0} decades, in steps of one, and at {} the exact limit has the yield forces {} (in $mg$)",
+            number(AUTHORS_SPRINGS[0]),
+            number(AUTHORS_SPRINGS[1]),
             values(FRICTION, &[mu]),
             fixed(yields, 2)
         );
         let all_yield = yields.iter().all(|force| force.is_finite());
-        let wrong = worst([(decades - 2.0).abs(), violation(all_yield)]);
+        let [normal, tangential] = AUTHORS_SPRINGS;
+        let ratio = relative(paper.stiffness_ratio, normal / tangential);
+        let wrong = worst([(decades - 2.0).abs(), ratio, violation(all_yield)]);
         Finding::new(wrong, 1e-9, evidence)
     }),
 ];
+
+/// k_n and k_t in compress.c of the authors' repository, in m g/r.
+const AUTHORS_SPRINGS: [f64; 2] = [1e2, 4e1];
 
 /// Standard gravity, in m/s².
 const GRAVITY: f64 = 9.806_65;

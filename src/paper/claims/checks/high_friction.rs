@@ -9,6 +9,7 @@ use crate::paper::claims::truth::pairs;
 use crate::study::yield_force::PAPER_STIFFNESSES;
 use crate::theory::{
     Boundary, EquilibriumPath, Event, LoadingOutcome, bracketed_root, elastic_root, followed_limit,
+    quasistatic_limit,
 };
 
 pub(crate) const CHECKS: &[Check] = &[
@@ -126,20 +127,27 @@ pub(crate) const CHECKS: &[Check] = &[
                 let base = stack(paper, mu, stiffness);
                 if let Some(outcome) = LoadingOutcome::of(&base, HistoryUpdate::Fixed) {
                     slips += usize::from(outcome.first.event == Event::CylinderSlip);
-                    highest = highest.max(outcome.first.tangent);
                 }
+                let limit = quasistatic_limit(&base, &ContactConvention::PAPER);
+                highest = highest.max(limit.pair_friction.unwrap_or(0.0));
             }
         }
         let evidence = format!(
-            "exact path, {}, {}: the contact between cylinders needs at most $b/a = {highest:.3}$ by the time of yield, and \
-             slips first in {slips} of {} stacks",
+            "path of equilibria, {}, {}: when the floor slips, the contact between cylinders needs a friction of at most \
+             ${highest:.3}$, its whole tangential force over its normal force, and it slips first in {slips} of {} stacks; $\\mu_d$ in the \
+             authors' program (compress.c): {}",
             range(FRICTION, &frictions),
             range(STIFFNESS, &stiffnesses),
-            frictions.len() * stiffnesses.len()
+            frictions.len() * stiffnesses.len(),
+            number(AUTHORS_CYLINDER_FRICTION)
         );
-        Finding::exceptions(slips, evidence)
+        let wrong = usize::from(paper.cylinder_friction != AUTHORS_CYLINDER_FRICTION);
+        Finding::exceptions(slips + wrong, evidence)
     }),
 ];
+
+/// Friction between cylinders in compress.c of the authors' repository.
+const AUTHORS_CYLINDER_FRICTION: f64 = 0.7;
 
 /// 1/ε at which the frictions of the elastic equation are those for ε → 0, to 8 digits.
 const NEARLY_RIGID: f64 = 1e8;

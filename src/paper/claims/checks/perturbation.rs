@@ -66,7 +66,7 @@ pub(crate) const CHECKS: &[Check] = &[
             ])
         }));
         let evidence = format!(
-            "$D$ and $E$ at $\\alpha = {0}$ and $-{0}$ differ by at most ${1}$ at {2} pairs of $\\mu$ and $\\kappa$: they are regular at \
+            "$D$ and $E$ at $\\alpha = {0}$ and $-{0}$ differ by at most ${1}$ of $1 + \\lvert D\\rvert$ and $1 + \\lvert E\\rvert$ at {2} pairs of $\\mu$ and $\\kappa$: they are regular at \
              $\\alpha = 0$",
             number(alpha),
             scientific(largest, 0),

@@ -71,7 +71,7 @@ pub(crate) const CHECKS: &[Check] = &[
         let singular = conditions(paper, CRITICAL_FRICTION).determinant().abs();
         let deviations = solved.into_iter().chain([singular]);
         let compared = format!(
-            "six linear equations for six unknowns, solved for {}; singular at $\\mu_c$ alone, where $f$ diverges",
+            "six linear equations for six unknowns, with the directions of rigid cylinders, solved for {}; singular at $\\mu_c$ alone, where $f$ diverges",
             range(FRICTION, &frictions)
         );
         Finding::identity(deviations, &compared)

@@ -26,15 +26,22 @@ pub(crate) const CHECKS: &[Check] = &[
         }
         let last = rows.last().map_or(f64::NAN, |row| row.1);
         let evidence = format!(
-            "{} at {}, {}: $f$ rises to ${highest:.4}mg$ (largest fall on the way ${}$ of it) and then falls to \
-             ${last:.3}mg$",
+            "{} at {}, {}: $f$ rises to ${highest:.4}mg${} and then falls to ${last:.3}mg$ in {} rows{}",
             runs.who,
             stack(&force_series_stack()),
             speed(runs.series.wall_speed),
-            scientific(drop / highest, 1)
+            match drop > 0.0 {
+                true => format!(
+                    ", with a fall of ${}$ of it on the way,",
+                    scientific(drop / highest, 1)
+                ),
+                false => " without a fall on the way".to_owned(),
+            },
+            rows.len(),
+            runs.labels(&force_series_stack())
         );
         let deviation = worst([drop / highest, violation(last < 0.9 * highest)]);
-        Ok(Finding::new(deviation, 1e-3, evidence))
+        Ok(Finding::new(deviation, CIRCLE, evidence))
     }),
     // The peak at the paper's speed is compared with the exact quasi-static limit, where the paper shows f(t).
     Check::simulations("peak-is-quasistatic", |_, runs| {
@@ -42,14 +49,16 @@ pub(crate) const CHECKS: &[Check] = &[
         let forces = series.peak_force.zip(series.limit);
         let (peak, limit) = forces.ok_or_else(|| missing("f(t)"))?;
         let evidence = format!(
-            "{} at {}, {}, {}: peak ${peak:.6}mg$, exact quasi-static limit ${limit:.6}mg$: {}",
+            "{} at {}, {}, {}: peak ${peak:.6}mg${}, exact quasi-static limit ${limit:.6}mg$: {} of $f${}",
             runs.who,
             stack(&force_series_stack()),
             speed(series.wall_speed),
             time_step(series.time_step),
-            percent(peak / limit - 1.0, 4)
+            runs.peak_source,
+            percent(peak / limit - 1.0, 4),
+            runs.labels(&force_series_stack())
         );
-        Ok(Finding::new(relative(peak, limit), 1e-3, evidence))
+        Ok(Finding::new(relative(peak, limit), CIRCLE, evidence))
     }),
     Check::simulations("converges-with-speed", |paper, runs| {
         let speeds = [1e-4, 1e-5, paper.compression_speed];
@@ -58,11 +67,12 @@ pub(crate) const CHECKS: &[Check] = &[
             return Err(missing("the convergence study"));
         };
         let evidence = format!(
-            "{} at {}, {}: peak against the exact quasi-static limit {}",
+            "{} at {}, {}: peak against the exact quasi-static limit, in parts of $f$, {}{}",
             runs.who,
             stack(&convergence_stack()),
             time_step(PAPER_TIME_STEP),
-            percents(runs, &WALL_SPEEDS)
+            percents(runs, &WALL_SPEEDS),
+            runs.labels(&convergence_stack())
         );
         let shrinks = fast.abs() > middle.abs() && middle.abs() > slow.abs();
         Ok(Finding::statement(shrinks, evidence))
@@ -71,13 +81,14 @@ pub(crate) const CHECKS: &[Check] = &[
         let excess = excess(runs, paper.compression_speed);
         let excess = excess.ok_or_else(|| missing("this wall speed"))?;
         let evidence = format!(
-            "{} at {}, {}: peak against the exact quasi-static limit {}: it grows as $v_{{\\mathrm{{com}}}}/\\epsilon$",
+            "{} at {}, {}: peak against the exact quasi-static limit, in parts of $f$, {}{}",
             runs.who,
             stack(&convergence_stack()),
             time_step(PAPER_TIME_STEP),
-            percents(runs, &WALL_SPEEDS[2..])
+            percents(runs, &WALL_SPEEDS[2..]),
+            runs.labels(&convergence_stack())
         );
-        Ok(Finding::new(excess.abs(), 1e-3, evidence))
+        Ok(Finding::new(excess.abs(), CIRCLE, evidence))
     }),
     Check::simulations("time-step", |paper, runs| {
         let peak = |step: f64| at(&runs.time_steps, step);
@@ -90,14 +101,15 @@ pub(crate) const CHECKS: &[Check] = &[
         });
         let change = relative(usual, finer);
         let evidence = format!(
-            "{} at {}, {}: the peak changes by ${}$ between {} and a tenth of it{coarse}",
+            "{} at {}, {}: the peak changes by ${}$ of it between {} and a tenth of that step{coarse}{}",
             runs.who,
             stack(&convergence_stack()),
             speed(FAST_WALL),
             scientific(change, 1),
-            time_step(paper.time_step)
+            time_step(paper.time_step),
+            runs.labels(&convergence_stack())
         );
-        Ok(Finding::new(change, 1e-4, evidence))
+        Ok(Finding::new(change, CIRCLE, evidence))
     }),
     Check::theory("leapfrog", |paper| {
         let ratio = paper.time_step
@@ -126,8 +138,8 @@ pub(crate) const CHECKS: &[Check] = &[
         let near = compared.iter().filter(|row| row.1 <= CRITICAL_FRICTION);
         let near = worst(near.map(|row| row.0));
         let evidence = format!(
-            "{}, {} stacks of Fig. 2(a){}, against Eq. (17): $f + 3mg$ differs by at \
-             most {:.1} % ({}), {:.1} % up to $\\mu_c$. The distance does not vanish for stiff cylinders above $\\mu_c$",
+            "{}, {} stacks at the stiffnesses of Fig. 2(a){}, against Eq. (17): $f + 3mg$ differs by at \
+             most {:.2} % ({}), {:.2} % up to $\\mu_c$. The distance does not vanish for stiff cylinders above $\\mu_c$",
             runs.who,
             compared.len(),
             runs.read,
@@ -142,36 +154,50 @@ pub(crate) const CHECKS: &[Check] = &[
         let below = rows.filter(|row| row[0] < CRITICAL_FRICTION);
         let below = below.map(|&[mu, stiffness, force]| {
             let rigid = paper.rigid_yield_force(mu);
-            (stiffness, relative(force + 3.0, rigid + 3.0))
+            (stiffness, (force + 3.0) / (rigid + 3.0) - 1.0)
         });
         let mut below: Vec<(f64, f64)> = below.collect();
         below.sort_by(|left, right| left.0.total_cmp(&right.0));
-        let &(stiffness, closest) = below.last().ok_or_else(|| missing("Fig. 2(b)"))?;
-        let shrinks = below.windows(2).all(|pair| pair[1].1 < pair[0].1);
+        let &(stiffness, last) = below.last().ok_or_else(|| missing("Fig. 2(b)"))?;
+        // What is lost again of the closest approach.
+        let distances = below.iter().map(|own| own.1.abs());
+        let receding = last.abs() - distances.fold(f64::INFINITY, f64::min);
+        let crossed = below
+            .windows(2)
+            .find(|pair| pair[0].1 < 0.0 && pair[1].1 > 0.0);
         let evidence = format!(
-            "{} at {}: $f + 3mg$ {} closer to $f_0 + 3mg$ with every larger $k_n r/mg$, to ${}$ at ${}$; at \
-             $\\mu_c$ and above it grows without bound (see the exponents)",
+            "{} at {}: $f + 3mg$ is {} off $f_0 + 3mg$ at ${}$, and {} off at ${}${}; at $\\mu_c$ and above it grows without bound (see the \
+             exponents)",
             runs.who,
             values(FRICTION, &SCALING_FRICTIONS[..1]),
-            if shrinks { "comes" } else { "does not come" },
-            scientific(closest, 1),
-            number(stiffness)
+            percent(below[0].1, 2),
+            number(below[0].0),
+            percent(last, 3),
+            number(stiffness),
+            crossed.map_or_else(String::new, |pair| format!(
+                ", having passed it between ${}$ and ${}$, which no slow wall does",
+                number(pair[0].0),
+                number(pair[1].0)
+            ))
         );
-        let deviation = worst([closest, violation(shrinks)]);
-        Ok(Finding::new(deviation, 1e-2, evidence))
+        let deviation = worst([last.abs(), receding]);
+        Ok(Finding::new(deviation, 1e-3, evidence))
     }),
     Check::simulations("runs-scale", |paper, runs| {
         let mut listed = Vec::new();
         let mut deviations = Vec::new();
         for own in &runs.exponents {
             let printed = exponent_at(own.friction, [0.0, paper.scaling_at, paper.scaling_above]);
-            deviations.push((own.exponent - printed).abs());
+            // At finite stiffnesses the exact limit itself has other exponents.
+            let farther = (own.exponent - printed).abs() - (own.exact - printed).abs();
+            deviations.push(farther.max(0.0));
             let uncertainty = own.uncertainty.map_or_else(String::new, |uncertainty| {
                 format!(" \\pm {}", scientific(uncertainty, 0))
             });
             listed.push(format!(
-                "${:.4}{uncertainty}$ at {}",
+                "${:.4}{uncertainty}$ (exact limit ${:.4}$) at {}",
                 own.exponent,
+                own.exact,
                 values(FRICTION, &[own.friction])
             ));
         }
@@ -179,8 +205,8 @@ pub(crate) const CHECKS: &[Check] = &[
             return Err(missing("Fig. 2(b)"));
         }
         let evidence = format!(
-            "slopes of $\\ln(f + 3mg)$ over $\\ln(k_n r/mg)$, {}, fitted from ${}$ on: {}; the paper's 0, {} and {} are \
-             their limits",
+            "slopes of $\\ln(f + 3mg)$ over $\\ln(k_n r/mg)$, {}, fitted from ${}$ on: {}; for $\\epsilon \\to 0$ those of the exact limit \
+             become the paper's, which are 0 below $\\mu_c$, {} at $\\mu_c$ and {} above",
             runs.who,
             number(FITTED_FROM),
             list(listed),
@@ -190,6 +216,10 @@ pub(crate) const CHECKS: &[Check] = &[
         Ok(Finding::new(worst(deviations), 2e-3, evidence))
     }),
 ];
+
+/// What "converged", "unchanged" and "is" can mean for a yield force of the figure on convergence: half the height of its circles,
+/// 6 of 43.58 points for 0.1 m g (figS3b.pdf of the authors' repository), as a part of f there.
+const CIRCLE: f64 = 6.0 / 435.8 / 4.880;
 
 /// The reason for which a check cannot be made.
 fn missing(name: &str) -> String {

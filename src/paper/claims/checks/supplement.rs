@@ -118,7 +118,7 @@ const RATIO: f64 = 2.5;
 
 fn kinematics(deviation: impl Fn(&Displacements) -> f64) -> Finding {
     let deviations = arbitrary_displacements().map(|moved| deviation(&moved) / RADIUS);
-    let compared = "positions and motions of rigid cylinders at arbitrary displacements, $r$ not 1";
+    let compared = "the printed formula against positions and motions of rigid cylinders at arbitrary displacements, $r$ not 1";
     Finding::identity(deviations, compared)
 }
 
@@ -137,6 +137,6 @@ fn springs(component: fn(Forces) -> f64, printed: impl Fn(&Displacements) -> For
         let truth = component(moved.spring_forces(RATIO));
         ((component(printed(&moved)) - truth) / NORMAL_STIFFNESS / RADIUS).abs()
     });
-    let compared = "springs on the motion of the two surfaces at arbitrary displacements, $r$ and $k_n$ not 1 (deviations in $k_n r$)";
+    let compared = "the printed formula against springs stretched by the displacements of the two surfaces, along the present tangent, $r$ and $k_n$ not 1 (deviations in $k_n r$)";
     Finding::identity(deviations, compared)
 }

@@ -134,13 +134,24 @@ impl<'a> RememberedBranch<'a> {
         knots.take_while(move |(at, _)| (at - start).abs() < whole)
     }
 
-    /// What is left of cylinder friction, or of the way of the wall, whichever is less, up to the largest load.
-    pub(in crate::theory) fn margin(&self) -> f64 {
+    /// The kept states up to that of the largest load, and this.
+    fn up_to_peak(&self) -> impl Iterator<Item = PathPoint> {
         let peak = self.peak_direction();
         let points = self.before(peak);
         let points = points.map(|(_, state)| self.contacts.point(state, Leg::Wall));
-        let points = points.chain([self.point(peak)]);
-        let margins = points.flat_map(|point| {
+        points.chain([self.point(peak)])
+    }
+
+    /// The friction that the cylinders need up to the largest load.
+    pub(in crate::theory) fn needed_friction(&self) -> f64 {
+        self.up_to_peak()
+            .map(|point| point.pair_friction)
+            .fold(0.0, f64::max)
+    }
+
+    /// What is left of cylinder friction, or of the way of the wall, whichever is less, up to the largest load.
+    pub(in crate::theory) fn margin(&self) -> f64 {
+        let margins = self.up_to_peak().flat_map(|point| {
             [Event::CylinderSlip, Event::WallContact].map(|event| point.margin(event, self.stack))
         });
         margins.fold(f64::INFINITY, f64::min)

@@ -1,12 +1,12 @@
 //! Slip while contact 2–3 is closed: the stack goes on until that contact opens.
 
 use super::super::events::{Event, locate};
-use super::super::path::{RememberedBranch, remembered_overlap_at_rest};
+use super::super::path::{FollowedPath, RememberedBranch, remembered_overlap_at_rest};
 use super::super::root::bracketed_root;
 use super::super::sliding::SlidingEnd;
 use super::EquilibriumPath;
 use super::critical_state::{CriticalState, LoadingPhase};
-use crate::model::{CRITICAL_FRICTION, Stack};
+use crate::model::{CRITICAL_FRICTION, ContactConvention, Stack};
 
 /// Largest difference that the memory of springs makes to the frictions between which a stack is released, relative to them.
 const NEARBY: f64 = 0.1;
@@ -97,10 +97,19 @@ pub fn released_frictions(path: &EquilibriumPath, stack: &Stack) -> Option<(f64,
         remembered_overlap_at_rest(path, stack, convention, slip)
     })?;
     let high = beside(high, stack, |stack| {
-        let slip = locate(path, Event::FloorSlip, stack)?;
-        Some(RememberedBranch::new(path, stack, convention, slip)?.margin())
+        Some(remembered_branch(path, stack, convention)?.margin())
     })?;
     Some((low, high))
+}
+
+/// The sliding branch of `stack` from where its floor slips on the `path`.
+fn remembered_branch<'a>(
+    path: &'a FollowedPath,
+    stack: &'a Stack,
+    convention: &ContactConvention,
+) -> Option<RememberedBranch<'a>> {
+    let slip = locate(path, Event::FloorSlip, stack)?;
+    RememberedBranch::new(path, stack, convention, slip)
 }
 
 /// The floor friction near `guess` at which `margin` of stacks like `stack` vanishes.
@@ -152,18 +161,15 @@ pub(crate) fn released_wall_friction(path: &EquilibriumPath, stack: &Stack) -> O
         ..*stack
     };
     let (_, guess) = frictions_without_memory(&rough)?;
-    let peak = |stack: &Stack| {
-        let slip = locate(path, Event::FloorSlip, stack)?;
-        Some(RememberedBranch::new(path, stack, convention, slip)?.peak())
-    };
     let floor_friction = beside(guess, &rough, |stack| {
-        Some(peak(stack)?.margin(Event::WallContact, stack))
+        let peak = remembered_branch(path, stack, convention)?.peak();
+        Some(peak.margin(Event::WallContact, stack))
     })?;
     let arriving = Stack {
         floor_friction,
         ..rough
     };
-    Some(peak(&arriving)?.pair_friction)
+    Some(remembered_branch(path, &arriving, convention)?.needed_friction())
 }
 
 /// T − μ_c where the wall reaches the bottom cylinders just as these part.
@@ -207,6 +213,7 @@ fn slip_without_contact(stack: &Stack) -> (f64, Event) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::model::HistoryUpdate;
 
     #[test]
     fn touching_overlap_is_the_geometry_it_abbreviates() {
@@ -232,5 +239,31 @@ mod tests {
         assert!((settled_height - end.wall_travel - height).abs() < 1e-14);
         let load = stack.epsilon() * (end.force + 3.0);
         assert!((2.0 * end.floor_overlap - load).abs() < 1e-15);
+    }
+
+    #[test]
+    fn from_the_wall_friction_on_the_cylinders_no_longer_limit_the_floor() {
+        for rule in [HistoryUpdate::Rotated, HistoryUpdate::Fixed] {
+            let stack = |floor_friction, cylinder_friction, stiffness_ratio| Stack {
+                cylinder_friction,
+                stiffness_ratio,
+                ..Stack::paper(floor_friction, 1e2)
+            };
+            let path = EquilibriumPath::new(&stack(0.3, 0.7, 0.9), rule);
+            let wall = released_wall_friction(&path, &stack(0.3, 0.7, 0.9)).unwrap();
+            // Of the stack it takes neither friction.
+            let other = released_wall_friction(&path, &stack(0.1, 0.3, 0.9)).unwrap();
+            assert!((wall - other).abs() < 1e-9, "{rule:?} {wall} {other}");
+            let highest = |factor: f64| {
+                let own = stack(0.3, factor * wall, 0.9);
+                released_frictions(&path, &own).unwrap().1
+            };
+            let [less, equal, more] = [0.99, 1.0, 1.01].map(highest);
+            assert!((equal - more).abs() < 1e-6, "{rule:?} {equal} {more}");
+            assert!(less < equal - 1e-3, "{rule:?} {less} {equal}");
+        }
+        let open = Stack::paper(0.3, 1e2);
+        let path = EquilibriumPath::new(&open, HistoryUpdate::Fixed);
+        assert_eq!(released_wall_friction(&path, &open), None);
     }
 }

@@ -128,6 +128,16 @@ mod tests {
         ]
     }
 
+    #[test]
+    fn only_a_root_of_cylinders_that_have_moved_inwards_carries_a_caution() {
+        let inwards = elastic_root(&Stack::paper(0.85, 1e4)).unwrap();
+        assert!(inwards.caution().unwrap().starts_with("y < 0"));
+        let outwards = elastic_root(&Stack::paper(0.3, 1e4)).unwrap();
+        for y in [outwards.y, 0.0] {
+            assert_eq!(ElasticRoot { y, ..outwards }.caution(), None);
+        }
+    }
+
     fn grid() -> impl Iterator<Item = Stack> {
         let frictions = [
             0.1,

@@ -21,3 +21,25 @@ pub(crate) fn naive_load(stack: &Stack) -> Option<f64> {
     let load = ring.bodies * displacement / epsilon;
     (load >= stack.own_weight()).then_some(load)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::theory::small_displacement::elastic_root;
+
+    #[test]
+    fn at_the_critical_friction_it_is_the_root_of_stiff_bodies_in_any_ring() {
+        for bodies in [2, 3, 5] {
+            let stack = Stack {
+                bodies,
+                ..Stack::paper(0.3, 1e12)
+            };
+            let stack = Stack {
+                floor_friction: stack.ring().critical_friction,
+                ..stack
+            };
+            let ratio = naive_load(&stack).unwrap() / elastic_root(&stack).unwrap().load;
+            assert!((ratio - 1.0).abs() < 1e-5, "{bodies}: {ratio}");
+        }
+    }
+}

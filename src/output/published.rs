@@ -5,7 +5,7 @@ use super::table::{Columns, DataTable};
 use super::text::markdown_code;
 use crate::paper::claims::scientific;
 use crate::paper::published::{
-    ALIKE, Contradiction, DataFile, Fit, Published, RepeatedForce, RepeatedSeries,
+    Contradiction, DataFile, Fit, Published, RepeatedForce, RepeatedSeries,
 };
 
 const FOUND_IN: &str = "`tristack crosscheck --profile published` (published.csv, published.json), `tristack report --published` (tables/published.csv)";
@@ -205,22 +205,35 @@ pub(crate) fn published_tables(published: &Published) -> [DataTable<'_>; 4] {
 
 /// How much is reproduced, in a sentence.
 pub(crate) fn published_summary(published: &Published) -> String {
-    published_summary_with(published, &format!("{ALIKE:e} of F + 3"))
+    summary_with(published, |largest| format!("{largest:.1e} of F + 3"))
 }
 
 /// The same with mathematics in TeX.
 pub(crate) fn published_summary_in_tex(published: &Published) -> String {
-    let alike = scientific(ALIKE, 0);
-    published_summary_with(published, &format!("${alike}$ of $F + 3$"))
+    summary_with(published, |largest| {
+        format!("${}$ of $F + 3$", scientific(largest, 1))
+    })
 }
 
-fn published_summary_with(published: &Published, alike: &str) -> String {
+fn summary_with(published: &Published, in_words: impl Fn(f64) -> String) -> String {
     let count = |wanted: Fit| published.fits().filter(|&fit| fit == wanted).count();
     let (all, every_digit) = (published.fits().count(), count(Fit::EveryDigit));
     let mut text = format!(
-        "{every_digit} of {all} published numbers and series are reproduced in every printed digit, {} to within {alike}",
-        count(Fit::Alike)
+        "{every_digit} of {all} published numbers and series are reproduced in every printed digit"
     );
+    let forces = published
+        .forces
+        .iter()
+        .map(|own| (own.fit(), own.remainder()));
+    let series = published
+        .series
+        .iter()
+        .map(|own| (own.fit(), own.largest_remainder()));
+    let alike = forces.chain(series).filter(|own| own.0 == Fit::Alike);
+    let largest = alike.filter_map(|own| own.1).map(f64::abs).reduce(f64::max);
+    if let Some(largest) = largest {
+        text += &format!(", {} to within {}", count(Fit::Alike), in_words(largest));
+    }
     for (fit, said) in [
         (Fit::Differs, "differ"),
         (Fit::Failed, "failed"),

@@ -246,6 +246,36 @@ fn the_released_program_reproduces_every_published_number() {
     assert_eq!(every_digit + alike, rows(0).len());
     assert!(every_digit > 2 * alike);
     assert_eq!(rows(1)[0]["fit"], "alike");
+    // The report finds these runs in the store, and makes its own.
+    let output = std::process::Command::new(program)
+        .args(["report", "--codes", "native", "--published"])
+        .arg(authors())
+        .arg("--store")
+        .arg(place.path().join("store"))
+        .arg("--out")
+        .arg(place.path().join("report"))
+        .output()
+        .unwrap();
+    assert!(output.status.success(), "{output:?}");
+    let claims = std::fs::read(place.path().join("report/claims.json")).unwrap();
+    let claims: serde_json::Value = serde_json::from_slice(&claims).unwrap();
+    let claims = claims["rows"].as_array().unwrap().iter();
+    let second = claims.filter_map(|row| {
+        let verdict = row["published_verdict"].as_str()?;
+        Some((row["id"].as_str().unwrap(), verdict))
+    });
+    let second: Vec<(&str, &str)> = second.collect();
+    let expected = [
+        ("force-series", "holds"),
+        ("dem-agrees", "approximately"),
+        ("dem-approaches-rigid", "approximately"),
+        ("dem-scales", "approximately"),
+        ("peak-definition", "holds"),
+        ("converges-with-speed", "holds"),
+        ("compression-speed", "holds"),
+        ("time-step", "holds"),
+    ];
+    assert_eq!(second, expected);
 }
 
 #[test]

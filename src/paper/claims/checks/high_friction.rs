@@ -135,7 +135,7 @@ pub(crate) const CHECKS: &[Check] = &[
         let evidence = format!(
             "path of equilibria, {}, {}: when the floor slips, the contact between cylinders needs a friction of at most \
              ${highest:.3}$, its whole tangential force over its normal force, and it slips first in {slips} of {} stacks; $\\mu_d$ in the \
-             authors' program (compress.c): {}",
+             authors' program (compress.c): ${}$",
             range(FRICTION, &frictions),
             range(STIFFNESS, &stiffnesses),
             frictions.len() * stiffnesses.len(),

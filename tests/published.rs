@@ -227,7 +227,7 @@ fn the_released_program_reproduces_every_published_number() {
         return;
     };
     let place = tempdir().unwrap();
-    let output = std::process::Command::new(program)
+    let output = std::process::Command::new(&program)
         .args(["crosscheck", "--profile", "published", "--published"])
         .arg(authors())
         .args(["--format", "json", "--store"])
@@ -247,7 +247,7 @@ fn the_released_program_reproduces_every_published_number() {
     assert!(every_digit > 2 * alike);
     assert_eq!(rows(1)[0]["fit"], "alike");
     // The report finds these runs in the store, and makes its own.
-    let output = std::process::Command::new(program)
+    let output = std::process::Command::new(&program)
         .args(["report", "--codes", "native", "--published"])
         .arg(authors())
         .arg("--store")

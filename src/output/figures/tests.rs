@@ -1,9 +1,12 @@
 //! Made-up runs, so that every mark can be counted.
 
-use super::style::Mark;
+use super::style::{Mark, PUBLISHED_CURVE};
 use super::*;
 use crate::code::{Code, Interrupt};
 use crate::model::{HistoryUpdate, Power, Stack};
+use crate::paper::published::{
+    Checkout, Published, RepeatedForce, RepeatedSeries, published_forces, published_series,
+};
 use crate::paper::reproduction::{
     Convergence, ConvergencePoint, Curves, Exponent, ForceSeries, Laws, Spheres, TheoryPoint,
     snapshots,
@@ -369,4 +372,62 @@ fn figures_without_any_run_are_still_drawn() {
         );
         assert!(figure.pdf().starts_with(b"%PDF-"), "{}", figure.name);
     }
+}
+
+/// A checkout with some points of the published figures, none of which is run.
+fn published() -> Published {
+    let place = tempfile::tempdir().unwrap();
+    for (file, rows) in [
+        ("fig2a/data/k1e+2.txt", "0.3 30.2"),
+        ("fig2b/data/mu0.33.txt", "1000 367.5\n10000 3610.9"),
+        ("figS3b/data/vwall.txt", "0.001 5.28\n0.0000001 4.8804"),
+        (
+            "figS2/data/f_vwall1.0e-06.txt",
+            "10000 0\n100000 4\n120000 4.3\n130000 3",
+        ),
+    ] {
+        let file = place.path().join(file);
+        std::fs::create_dir_all(file.parent().unwrap()).unwrap();
+        std::fs::write(file, rows).unwrap();
+    }
+    let checkout = Checkout::read(place.path()).unwrap();
+    let forces = published_forces(&checkout).into_iter();
+    let series = published_series(&checkout).into_iter();
+    Published {
+        files: checkout.files.clone(),
+        forces: forces
+            .map(|published| RepeatedForce {
+                published,
+                found: None,
+            })
+            .collect(),
+        series: series
+            .map(|published| RepeatedSeries {
+                published,
+                found: None,
+            })
+            .collect(),
+        contradictions: Vec::new(),
+    }
+}
+
+#[test]
+fn every_published_point_is_in_view() {
+    let mut shown = reproduction(judgements());
+    let alone = figures(&shown);
+    shown.published = Some(published());
+    let with_published = figures(&shown);
+    let svg = |name: &str| {
+        [&alone, &with_published].map(|all| all.iter().find(|own| own.name == name).unwrap().svg())
+    };
+    // With its entry in the key.
+    for (name, squares) in [("yield-curves", 2), ("scaling", 3), ("convergence", 3)] {
+        let [before, after] = svg(name).map(|svg| svg.matches("<polygon").count());
+        assert_eq!(after - before, squares, "{name}");
+    }
+    let [_, scaling] = svg("scaling");
+    assert!(texts(&scaling).contains(&"μ = 0.33".to_owned()));
+    let [before, after] = svg("force-series");
+    let lines = |svg: &str| svg.matches(PUBLISHED_CURVE.colour).count();
+    assert_eq!(lines(&after) - lines(&before), 2, "series and key");
 }

@@ -518,8 +518,202 @@ impl SlidingMotion {
 
 #[cfg(test)]
 mod tests {
-    use crate::model::{ContactConvention, CoulombOperand, Law, Stack, TangentialHistory};
-    use crate::theory::{LimitCurve, SpeedExcess};
+    use super::*;
+    use crate::model::{Arms, HistoryUpdate, Law, TangentialHistory};
+    use crate::theory::LimitCurve;
+    use crate::theory::path::{BottomContact, followed_path};
+
+    /// Stacks whose laws, arms and springs differ in all that rates depend on, somewhere under the wall.
+    fn with_equilibria(check: impl Fn(&Equilibrium, &FollowedPath, f64)) {
+        let (half, whole) = (Arms::reciprocal(-0.5, -1.0), Arms::reciprocal(0.7, 0.4));
+        let keeping = Law {
+            history: TangentialHistory::Force,
+            ..Law::HERTZ
+        };
+        for (law, arms, history_update) in [
+            (Law::LINEAR, half, HistoryUpdate::Fixed),
+            (Law::HERTZ, half, HistoryUpdate::Fixed),
+            (Law::HERTZ, whole, HistoryUpdate::Rotated),
+            (keeping, whole, HistoryUpdate::Fixed),
+        ] {
+            let convention = ContactConvention {
+                law,
+                arms,
+                history_update,
+                ..ContactConvention::PAPER
+            };
+            let path = followed_path(&Stack::paper(0.3, 1e2), &convention, BottomContact::Ignored);
+            let parameter = path.settled + 0.3;
+            let equilibrium = Equilibrium::new(&path.contacts, path.state(parameter));
+            check(&equilibrium, &path, parameter);
+        }
+    }
+
+    /// The equilibrium with its bodies moved and its springs stretched; all else is left as it is.
+    fn moved<'a>(at: &Equilibrium<'a>, place: &Place, springs: &Springs) -> Equilibrium<'a> {
+        let [pair_closing, floor_closing] = at.closing();
+        let turned = at.state.turned + (at.turning() * place)[0];
+        let pair_overlap = at.state.pair_overlap + (pair_closing * place)[0];
+        let (sin, cos) = libm::sincos(at.contacts.ring.angle + turned);
+        Equilibrium {
+            contacts: at.contacts,
+            state: State {
+                turned,
+                pair_overlap,
+                pair_shear: at.state.pair_shear + springs[0],
+                pair_lift: at.state.pair_lift + springs[1],
+                floor_shear: at.state.floor_shear + springs[2],
+                ..at.state
+            },
+            direction: [sin, cos],
+            distance: 2.0 - pair_overlap,
+            floor_overlap: at.floor_overlap + (floor_closing * place)[0],
+        }
+    }
+
+    const STEP: f64 = 1e-6;
+
+    /// Changes in no special direction.
+    fn changes() -> [(Place, Springs); 2] {
+        [
+            (
+                Place::new(0.3, -0.7, 0.4, 0.9),
+                Springs::new(0.2, -0.5, 0.3),
+            ),
+            (
+                Place::new(-0.6, 0.2, 0.5, -0.4),
+                Springs::new(-0.3, 0.1, 0.6),
+            ),
+        ]
+    }
+
+    #[test]
+    fn the_change_of_rates_is_the_difference_of_rates() {
+        with_equilibria(|at, _, _| {
+            for (place, springs) in changes() {
+                let rates = [STEP, -STEP]
+                    .map(|step| moved(at, &(place * step), &(springs * step)).spring_rates());
+                let expected = (rates[0] - rates[1]) / (2.0 * STEP);
+                let off = (at.change_of_rates(&place, &springs) - expected)
+                    .abs()
+                    .max();
+                assert!(off < 1e-6 * expected.abs().max(), "{off:e} {expected}");
+            }
+        });
+    }
+
+    /// Forces on y₁, x₂, y₂ and the rotation of body 2 by what bodies and springs are (docs/theory.md, Eqs. 17 to 20), weights and
+    /// wall left out.
+    fn forces(at: &Equilibrium, sliding_friction: Option<f64>) -> Place {
+        let contacts = at.contacts;
+        let [sin, cos] = at.direction;
+        let normal = contacts.law.force(at.state.pair_overlap) + at.state.pair_lift;
+        let floor = contacts.wall.force(at.floor_overlap);
+        let b = at.state.pair_shear;
+        let e = sliding_friction.map_or(at.state.floor_shear, |friction| friction * floor);
+        let arms = &contacts.arms;
+        Place::new(
+            contacts.ring.bodies * (normal * cos + b * sin),
+            normal * sin - b * cos - e,
+            floor - normal * cos - b * sin,
+            b * (1.0 + arms.pair.torque * at.state.pair_overlap)
+                - e * (1.0 + arms.floor.torque * at.floor_overlap),
+        )
+    }
+
+    #[test]
+    fn the_response_is_the_difference_of_forces() {
+        with_equilibria(|at, _, _| {
+            let floor = at.contacts.wall.force(at.floor_overlap);
+            for friction in [None, Some(at.state.floor_shear / floor)] {
+                let response = at.response(friction);
+                for (place, springs) in changes() {
+                    let none = [Place::zeros(), place];
+                    let stretched = [springs, Springs::zeros()];
+                    let found = [response.springs * springs, response.place * place];
+                    for ((place, springs), found) in none.into_iter().zip(stretched).zip(found) {
+                        let [after, before] = [STEP, -STEP].map(|step| {
+                            forces(&moved(at, &(place * step), &(springs * step)), friction)
+                        });
+                        let expected = (after - before) / (2.0 * STEP);
+                        let off = (found - expected).abs().max();
+                        assert!(off < 1e-6 * expected.abs().max(), "{off:e} {friction:?}");
+                    }
+                }
+            }
+        });
+    }
+
+    #[test]
+    fn dampers_take_the_power_of_their_velocities() {
+        with_equilibria(|at, _, _| {
+            let contacts = at.contacts;
+            let laws = [
+                contacts.law.at(at.state.pair_overlap),
+                contacts.wall.at(at.floor_overlap),
+            ];
+            for (velocity, _) in changes() {
+                let force = at.response(None).velocity * velocity;
+                let bodies = contacts.ring.bodies;
+                let power = velocity[0] * force[0]
+                    + bodies
+                        * (1..4)
+                            .map(|index| velocity[index] * force[index])
+                            .sum::<f64>();
+                let square = |row: RowVector4<f64>| (row * velocity)[0].powi(2);
+                let rows = at.closing().into_iter().zip(at.sliding()).zip(laws);
+                let taken = rows.map(|((closing, sliding), law)| {
+                    law.damping_normal * square(closing) + law.damping_tangential * square(sliding)
+                });
+                let taken = bodies * taken.sum::<f64>();
+                assert!((power + taken).abs() < 1e-12 * taken, "{power} {taken}");
+            }
+        });
+    }
+
+    #[test]
+    fn rates_are_those_of_the_path() {
+        with_equilibria(|at, path, parameter| {
+            let place = |parameter: f64| {
+                let own = Equilibrium::new(at.contacts, path.state(parameter));
+                let [sin, cos] = own.direction;
+                let lower = 1.0 - own.floor_overlap;
+                let state = own.state;
+                let place = Place::new(
+                    lower + own.distance * cos,
+                    own.distance * sin,
+                    lower,
+                    state.rotation,
+                );
+                let springs = Springs::new(state.pair_shear, state.pair_lift, state.floor_shear);
+                let overlap = at.contacts.wall.overlap(state.load - at.contacts.epsilon);
+                assert_eq!(own.wall_overlap(), overlap);
+                assert_eq!(own.wall_stiffness(), at.contacts.wall.stiffness(overlap));
+                (place, springs, state.turned, overlap)
+            };
+            let step = 1e-4;
+            let [after, before] = [step, -step].map(|step| place(parameter + step));
+            let (places, springs) = (after.0 - before.0, after.1 - before.1);
+            let (turned, overlap) = (after.2 - before.2, after.3 - before.3);
+            let travel = overlap - places[0];
+            let rates = at.rates();
+            for (found, expected) in [
+                (rates.place_per_turn, places / turned),
+                (rates.place, places / travel),
+            ] {
+                let off = (found - expected).abs().max();
+                assert!(off < 1e-6 * expected.abs().max(), "{off:e}");
+            }
+            for (found, expected) in [
+                (rates.springs_per_turn, springs / turned),
+                (rates.springs, springs / travel),
+            ] {
+                let off = (found - expected).abs().max();
+                assert!(off < 1e-6 * expected.abs().max(), "{off:e}");
+            }
+            assert!((rates.wall_overlap - overlap / travel).abs() < 1e-6);
+        });
+    }
 
     fn excess(stack: &Stack, convention: &ContactConvention) -> SpeedExcess {
         let curve = LimitCurve::new(stack, convention);

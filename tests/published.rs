@@ -3,7 +3,7 @@
 
 mod common;
 
-use common::{AUTHORS_FORCE, Bench, assert_only, released_program, small_checkout};
+use common::{AUTHORS_FORCE, Bench, assert_only, json_rows, released_program, small_checkout};
 use std::path::{Path, PathBuf};
 use tempfile::tempdir;
 use tristack::dem::{LaneWidth, PublishedForces, PublishedRun};
@@ -276,6 +276,99 @@ fn the_released_program_reproduces_every_published_number() {
         ("time-step", "holds"),
     ];
     assert_eq!(second, expected);
+}
+
+const GIVEN: &str = include_str!("../examples/cases/given/authors.toml");
+
+/// What `simulate` says of a case with a start.
+fn simulated(bench: &Bench, case: &str, more: &str) -> std::process::Output {
+    std::fs::write(bench.path("given.toml"), case).unwrap();
+    let line = format!("simulate --case given.toml {more}");
+    bench.tristack(&line).output().unwrap()
+}
+
+#[test]
+fn a_case_with_a_start_is_run_as_their_program_runs() {
+    let bench = Bench::without_codes();
+    let output = simulated(&bench, GIVEN, "--code native --format json");
+    assert!(output.status.success(), "{output:?}");
+    let row = &json_rows(std::str::from_utf8(&output.stdout).unwrap())[0];
+    let force = row["yield_force"].as_f64().unwrap();
+    assert_eq!(format!("{force:.6}"), AUTHORS_FORCE);
+    assert!(row["excess"].as_f64().unwrap() > 0.0);
+    let until = |end: &str| GIVEN.replace("# end_time = 60.0", end);
+    let with_rows = until("end_time = 200.0").replace("# interval = 0.1", "interval = 0.5");
+    let output = simulated(&bench, &with_rows, "--code native --out out");
+    assert!(output.status.success(), "{output:?}");
+    assert_only(&bench.path("out"), &["series.csv", "summary.json"]);
+    let rows = std::fs::read_to_string(bench.path("out/series.csv")).unwrap();
+    let rows = rows.lines().skip(1).map(|line| {
+        let (time, force) = line.split_once(',').unwrap();
+        (time.parse().unwrap(), force.parse().unwrap())
+    });
+    let rows: Vec<(f64, f64)> = rows.collect();
+    assert_eq!((rows.len(), rows[0]), (401, (0.0, 0.0)));
+    assert_eq!(rows[400].0, 200.0);
+    // Half a time unit before and after the peak, which the run goes beyond.
+    let highest = rows.iter().map(|row| row.1).fold(0.0, f64::max);
+    assert!(highest < force && highest > 0.99 * force, "{highest}");
+    let output = simulated(
+        &bench,
+        &until("end_time = 20.0"),
+        "--code native --format json",
+    );
+    let row = &json_rows(std::str::from_utf8(&output.stdout).unwrap())[0];
+    assert_eq!(row["yield_force"], serde_json::Value::Null);
+}
+
+#[test]
+fn what_a_case_with_a_start_cannot_have_is_named() {
+    let bench = Bench::without_codes();
+    let refused = |case: &str, more: &str, parts: &[&str]| {
+        let output = simulated(&bench, case, more);
+        let said = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(output.status.code(), Some(1), "{said}");
+        assert!(
+            parts.iter().all(|part| said.contains(part)),
+            "{parts:?}: {said}"
+        );
+    };
+    let native = "--code native";
+    refused(GIVEN, "--code yade", &["--code", "yade", "native"]);
+    refused(GIVEN, "--code native --svg a.svg", &["--svg", "a.svg"]);
+    for (from, to, parts) in [
+        (
+            "time_step = 1e-3",
+            "time_step = 1.0",
+            ["time_step", "at most"],
+        ),
+        (
+            "wall_speed = 1e-3",
+            "wall_speed = 0",
+            ["wall_speed", "above 0"],
+        ),
+        (
+            "# interval = 0.1",
+            "interval = 0.1",
+            ["interval", "end_time"],
+        ),
+        (
+            "restitution = 0.3",
+            "restitution = 0",
+            ["restitution", "from"],
+        ),
+        ("mu = 0.3", "mu = 0.3\nbodies = 3", ["stack.bodies", "2"]),
+        (
+            "[-1.0, 1.0, 0.0]]",
+            "[-1.0, nan, 0.0]]",
+            ["start.places", "-10"],
+        ),
+        ("wall_speed", "wall_sped", ["wall_sped", "wall_speed"]),
+    ] {
+        let case = GIVEN.replacen(from, to, 1);
+        assert_ne!(case, GIVEN);
+        refused(&case, native, &[&parts[..], &["given.toml"]].concat());
+    }
 }
 
 #[test]

@@ -11,6 +11,7 @@ mod convention;
 mod crosscheck;
 mod error;
 mod explain;
+mod given;
 mod guard;
 mod impacts;
 mod interrupt;

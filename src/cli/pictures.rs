@@ -36,6 +36,13 @@ impl Pictures {
         Ok(())
     }
 
+    /// The first flag that asks for a picture, and its value.
+    pub(super) fn named(&self) -> Option<(&'static str, &Path)> {
+        let all = [("--svg", &self.svg), ("--vtk", &self.vtk)];
+        let mut named = all.into_iter();
+        named.find_map(|(flag, path)| Some((flag, path.as_deref()?)))
+    }
+
     /// The files of the pictures that are asked for in the directory of the results, `out`.
     pub(super) fn files_in(&self, out: Option<&Path>) -> Vec<String> {
         let mut files: Vec<String> = inside(out, self.svg.as_deref()).into_iter().collect();

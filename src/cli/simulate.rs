@@ -8,7 +8,7 @@ use super::options::{
 use super::out::Out;
 use super::pictures::Pictures;
 use super::progress::Reporter;
-use super::{CliError, ExitStatus, INTERRUPT, complain, print, tell};
+use super::{CliError, ExitStatus, INTERRUPT, complain, given, print, tell};
 use crate::code::{Code, Failure, HOME, InstalledCode, Run, RunContext, keep_evidence};
 use crate::files::{FileError, Layout, remove_older, write_atomically};
 use crate::model::{
@@ -16,6 +16,7 @@ use crate::model::{
     SideWalls, Stack, shown,
 };
 use crate::output::{commented_case, json, series_columns, simulations, unfinished};
+use crate::paper::published::GivenCase;
 use crate::runs::Progress;
 use crate::study::preparation::between_side_walls;
 use crate::study::yield_force::{
@@ -57,7 +58,8 @@ pub(super) struct Arguments {
     /// Print a case file with every key, its default and its meaning, and exit
     #[arg(long, exclusive = true)]
     example: bool,
-    /// A case file, .toml or .json, instead of --mu, --stiffness and the rest; needs only what differs from the defaults
+    /// A case file, .toml or .json, instead of --mu, --stiffness and the rest; needs only what differs from the defaults. With a
+    /// table `start` it is run from that state, as the program of the paper's authors runs
     #[arg(long, value_name = "FILE", conflicts_with_all = replaced_by_case())]
     case: Option<PathBuf>,
     #[command(flatten)]
@@ -81,15 +83,15 @@ pub(super) struct Arguments {
     shortcuts: bool,
     /// Directory for case, series with the units of its columns, summary, deck and captured output
     #[arg(long, value_name = "DIR")]
-    out: Option<PathBuf>,
+    pub(super) out: Option<PathBuf>,
     #[command(flatten)]
-    pictures: Pictures,
+    pub(super) pictures: Pictures,
     /// Time limit in seconds [default: 30 s plus 100 us per step for external codes, none for native]
     #[arg(long, value_name = "SECONDS", value_parser = seconds)]
     time_limit: Option<f64>,
     /// Format of the result
     #[arg(long, value_enum, default_value_t = Format::Table)]
-    format: Format,
+    pub(super) format: Format,
 }
 
 /// The options whose values a case file holds.
@@ -105,6 +107,11 @@ fn replaced_by_case() -> Vec<Id> {
 pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, CliError> {
     if arguments.example {
         return Ok(print(&example()?));
+    }
+    if let Some(path) = &arguments.case
+        && let Some(given) = GivenCase::read(path)?
+    {
+        return given::run(arguments, &given, path, command);
     }
     // Micro-tests go to the store, where the other commands find them.
     settle_one(arguments.code(), &RunOptions::default())?;
@@ -361,7 +368,7 @@ fn run_layout(arguments: &Arguments, case: &Case) -> Layout {
 
 impl Arguments {
     /// The code, which is not asked for an example.
-    fn code(&self) -> Code {
+    pub(super) fn code(&self) -> Code {
         self.code.unwrap_or(Code::NATIVE)
     }
 }

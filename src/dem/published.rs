@@ -16,6 +16,7 @@ use super::stack_scene::{FLOOR, LEFT, RIGHT, StackScene, TOP, TOP_WALL};
 use crate::model::{
     Case, ContactConvention, ContactLaw, Preparation, Protocol, Sampling, Stack, sha256_hex,
 };
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
@@ -25,12 +26,12 @@ const STEPS_IN_A_BLOCK: u64 = 1 << 14;
 const LONGEST_TRAVEL: f64 = 3.0;
 
 /// Places, velocities and springs at the start of a run; bodies in the order top, right, left.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct GivenStart {
     /// x, y and rotation of every body, in r and rad.
     pub places: [[f64; 3]; 3],
-    /// Their rates, in √(k_n/m) times r and rad.
+    /// Their rates, in r and rad over the unit of time: √(m/k_n) of a [`PublishedRun`].
     pub velocities: [[f64; 3]; 3],
     /// Springs of the right and the left body against the top one, vectors in r.
     pub pair_springs: [[f64; 2]; 2],
@@ -73,8 +74,17 @@ pub struct ForceSampling {
 }
 
 impl ForceSampling {
+    /// One step, with which the run ends.
+    pub fn at(step: u64) -> Self {
+        Self {
+            first: step,
+            every: 1,
+            count: 1,
+        }
+    }
+
     /// The step of the sample with this `index`.
-    fn step(&self, index: u64) -> u64 {
+    pub fn step(&self, index: u64) -> u64 {
         self.first.saturating_add(self.every.saturating_mul(index))
     }
 }

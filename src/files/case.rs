@@ -10,7 +10,7 @@ const LARGEST: u64 = 1 << 20;
 impl Case {
     /// Reads and validates a case from a `.toml` or `.json` file.
     pub fn read(path: &Path) -> Result<Self, CaseError> {
-        Self::parse(&content(path)?, path)
+        Self::parse(&case_content(path)?, path)
     }
 
     /// The same of a file that may be partial: `complete` fills in what is left out.
@@ -18,11 +18,12 @@ impl Case {
         path: &Path,
         complete: impl FnOnce(&PartialCase) -> Result<Self, InvalidValue>,
     ) -> Result<Self, CaseError> {
-        Self::parse_with(&content(path)?, path, complete)
+        Self::parse_with(&case_content(path)?, path, complete)
     }
 }
 
-fn content(path: &Path) -> Result<Vec<u8>, CaseError> {
+/// The content of a case file.
+pub(crate) fn case_content(path: &Path) -> Result<Vec<u8>, CaseError> {
     let content = read_bounded(path, LARGEST, Links::Followed);
     content.map_err(|source| CaseError::Unreadable {
         path: path.to_owned(),

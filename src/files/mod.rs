@@ -8,6 +8,7 @@ mod error;
 mod read;
 mod results;
 
+pub(crate) use case::case_content;
 pub(crate) use checksums::{CHECKSUMS, check, checksums, read_sealed, write_sealed};
 pub use checksums::{seal, unseal};
 pub(crate) use draft::{

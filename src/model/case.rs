@@ -129,13 +129,13 @@ impl Case {
 
 impl CaseError {
     /// A value in the file at `path` is out of its range.
-    pub(super) fn in_file(path: &Path) -> impl FnOnce(InvalidValue) -> Self {
+    pub(crate) fn in_file(path: &Path) -> impl FnOnce(InvalidValue) -> Self {
         let path = path.to_owned();
         |invalid| Self::Invalid { path, invalid }
     }
 
     /// The content of the file at `path`, whose ending says the format.
-    pub(super) fn deserialized<T: DeserializeOwned>(
+    pub(crate) fn deserialized<T: DeserializeOwned>(
         content: &[u8],
         path: &Path,
     ) -> Result<T, Self> {

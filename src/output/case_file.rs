@@ -1,6 +1,7 @@
 //! A case file with the meaning of each key.
 
 use crate::model::{Case, Law, PartialCase};
+use schemars::JsonSchema;
 use schemars::generate::SchemaSettings;
 use serde_json::{Value, json};
 
@@ -13,11 +14,11 @@ const HEAD: &str = "# A case for `tristack simulate --case FILE`, with every key
 ";
 
 /// JSON Schema of a case file.
-pub(super) fn case_schema() -> Value {
+pub(super) fn case_schema<T: JsonSchema>() -> Value {
     let settings =
         SchemaSettings::draft2020_12().with(|settings| settings.inline_subschemas = true);
     let generator = settings.into_generator();
-    generator.into_root_schema_for::<PartialCase>().to_value()
+    generator.into_root_schema_for::<T>().to_value()
 }
 
 /// `case` as a TOML file, each key below its description.
@@ -36,7 +37,7 @@ pub(crate) fn commented_case(case: &Case) -> String {
         text: HEAD.to_owned(),
         in_order: format!("{}\"law\":{}", case.to_json(), in_order(&law)),
     };
-    file.write(&[], &table, &case_schema());
+    file.write(&[], &table, &case_schema::<PartialCase>());
     file.text
 }
 

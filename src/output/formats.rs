@@ -4,11 +4,11 @@ use super::page::declared_tables;
 use super::table::{Columns, DataTable};
 use super::{
     all_durations, arm_effects, atlas_table, bench, boundaries, budget, check, code_durations,
-    contradictions, crosscheck, crosscheck_summary, declared_explanations, forecasts, impacts,
-    inventory, judged_series, largest_forces, measured_convention, passport_changes,
-    passport_forces, planned_runs, probe, published_files, published_forces, published_series,
-    pyramids, regimes, scaling, simulations, stored, stored_entries, stored_files, theory,
-    trajectories,
+    contradictions, crosscheck, crosscheck_summary, declared_explanations, forecasts, given_runs,
+    given_series, impacts, inventory, judged_series, largest_forces, measured_convention,
+    passport_changes, passport_forces, planned_runs, probe, published_files, published_forces,
+    published_series, pyramids, regimes, scaling, simulations, stored, stored_entries,
+    stored_files, theory, trajectories,
 };
 use crate::code::{PARAMETERS, TaskKind};
 use crate::model::PAPER_BODIES;
@@ -90,6 +90,8 @@ pub(super) fn json_tables() -> Vec<DataTable<'static>> {
         published_series(&[]),
         contradictions(&[]),
         published_files(&[]),
+        given_runs(&[]),
+        given_series(&[]),
         theory(&[]),
         forecasts(&[]),
         simulations(&[]),

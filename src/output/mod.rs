@@ -67,8 +67,9 @@ pub(crate) use passport::{arm_effects, measured_convention, passport_json, passp
 pub(crate) use plan::planned_runs;
 pub(crate) use probe::{probe, probe_by_code};
 pub(crate) use published::{
-    contradictions, published_files, published_forces, published_markdown, published_series,
-    published_summary, published_summary_in_tex, published_tables, published_text,
+    contradictions, given_runs, given_series, published_files, published_forces,
+    published_markdown, published_series, published_summary, published_summary_in_tex,
+    published_tables, published_text,
 };
 pub(crate) use regimes::{
     REGIMES_TITLE, boundaries, largest_forces, regimes, regimes_markdown, survey_text,

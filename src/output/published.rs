@@ -5,7 +5,7 @@ use super::table::{Columns, DataTable};
 use super::text::markdown_code;
 use crate::paper::claims::scientific;
 use crate::paper::published::{
-    Contradiction, DataFile, Fit, Published, RepeatedForce, RepeatedSeries,
+    Contradiction, DataFile, Fit, GivenOutcome, Published, RepeatedForce, RepeatedSeries,
 };
 
 const FOUND_IN: &str = "`tristack crosscheck --profile published` (published.csv, published.json), `tristack report --published` (tables/published.csv)";
@@ -127,6 +127,51 @@ pub(crate) fn published_series(series: &[RepeatedSeries]) -> DataTable<'_> {
     .means("as in `published`")
     .shown("fit")
     .rows(series)
+}
+
+/// Runs from a given start.
+pub(crate) fn given_runs(runs: &[GivenOutcome]) -> DataTable<'_> {
+    Columns::<&GivenOutcome>::new(
+        "given_runs",
+        "A row is a compression from a given start, as the authors' program makes it.",
+        "`tristack simulate --case` with a start (summary.json)",
+    )
+    .stack(|row| row.stack)
+    .number("wall_speed", "√(g r)", |row| row.case.wall_speed)
+    .means("speed of the top wall")
+    .shown_as("wall speed, √(g r)", rounded)
+    .number("time_step", "√(r/g)", |row| row.case.time_step)
+    .means("time step of the integrator")
+    .shown_as("time step, √(r/g)", rounded)
+    .number("yield_force", "m g", |row| row.yield_force)
+    .means("wall force before its first decrease; absent if it does not fall before the end")
+    .shown_as("force before its first decrease", digits::<9>)
+    .number("limit_force", "m g", |row| row.limit)
+    .means("exact quasi-static limit of the stack, with springs that nothing turns; absent where nothing yields")
+    .shown_as("exact limit", digits::<9>)
+    .number("excess", "1", |row| {
+        let limit = row.limit?;
+        Some((row.yield_force? - limit) / (limit + 3.0))
+    })
+    .means("force less the limit, relative to F + 3")
+    .shown_as("force − limit", relative)
+    .rows(runs)
+}
+
+/// The wall force of a run from a given start.
+pub(crate) fn given_series(run: &[(f64, f64)]) -> DataTable<'_> {
+    Columns::<&(f64, f64)>::new(
+        "given_series",
+        "A row is one moment of a compression from a given start.",
+        "`tristack simulate --case` with a start and an interval (series.csv, summary.json)",
+    )
+    .number("time", "√(r/g)", |row| row.0)
+    .means("time since the start")
+    .shown("time, √(r/g)")
+    .number("wall_force", "m g", |row| row.1)
+    .means("force of the top wall, its damping included")
+    .shown_as("wall force, m g", digits::<9>)
+    .rows(run)
 }
 
 /// Numbers of one thing that differ.

@@ -5,6 +5,8 @@ use super::case_file::case_schema;
 use super::formats::{json_tables, result_files};
 use super::passport::passport_schema;
 use crate::code::{Definition, TaskKind};
+use crate::model::PartialCase;
+use crate::paper::published::GivenCase;
 use clap::ValueEnum;
 use schemars::generate::SchemaSettings;
 use serde_json::{Map, Value, json};
@@ -18,6 +20,8 @@ pub enum Document {
     Task,
     /// A case file, as `simulate --case` reads it
     Case,
+    /// A case file with a given start, which `simulate --case` reads too
+    GivenCase,
     /// code.toml, the manifest of a folder
     Manifest,
     /// Passport of a code, from `probe --out`
@@ -33,7 +37,8 @@ impl Document {
     pub fn json_schema(self) -> Value {
         let mut schema = match self {
             Self::Task => task(),
-            Self::Case => case_schema(),
+            Self::Case => case_schema::<PartialCase>(),
+            Self::GivenCase => case_schema::<GivenCase>(),
             Self::Manifest => manifest(),
             Self::Passport => passport_schema(),
             Self::Result => result(),
@@ -48,6 +53,7 @@ impl Document {
         match self {
             Self::Task => "task",
             Self::Case => "case",
+            Self::GivenCase => "given-case",
             Self::Manifest => "manifest",
             Self::Passport => "passport",
             Self::Result => "result",

@@ -13,7 +13,15 @@ use tristack::model::{Case, ContactConvention, Law, Preparation, Pyramid, SideWa
 use tristack::study::yield_force::plan;
 use validator::{unknown_keywords, violation};
 
-const DOCUMENTS: [&str; 6] = ["task", "case", "manifest", "passport", "result", "rows"];
+const DOCUMENTS: [&str; 7] = [
+    "task",
+    "case",
+    "given-case",
+    "manifest",
+    "passport",
+    "result",
+    "rows",
+];
 
 fn schema(document: &str) -> Value {
     let bench = Bench::without_codes();
@@ -239,7 +247,7 @@ fn cases_fit_theirs_whether_whole_or_partial() {
         fits(&schema, &value(text));
     }
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/cases");
-    for entry in std::fs::read_dir(folder).expect("the folder").flatten() {
+    for entry in std::fs::read_dir(&folder).expect("the folder").flatten() {
         if entry
             .path()
             .extension()
@@ -248,6 +256,15 @@ fn cases_fit_theirs_whether_whole_or_partial() {
             let text = std::fs::read_to_string(entry.path()).expect("a case");
             fits(&schema, &value(&text));
         }
+    }
+    let given = std::fs::read_to_string(folder.join("given/authors.toml")).expect("a case");
+    let given_schema = self::schema("given-case");
+    fits(&given_schema, &value(&given));
+    for (from, to, part) in [
+        ("[start]", "[started]", "start"),
+        ("wall_speed", "wall_speeds", "wall_speed"),
+    ] {
+        fits_not(&given_schema, &value(&given.replace(from, to)), part);
     }
     for (text, part) in [
         ("[stack]\nstiffness = 100.0", "stack"),

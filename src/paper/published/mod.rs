@@ -2,11 +2,13 @@
 
 mod checkout;
 mod contradictions;
+mod given;
 mod points;
 mod repetition;
 
 pub use checkout::{Checkout, DataFile, Printed, Subject};
 pub use contradictions::{Contradiction, Quotation};
+pub use given::{GivenCase, GivenOutcome};
 pub(crate) use points::WALL_STARTS;
 pub use points::{
     ForceOrigin, PublishedForce, PublishedSeries, published_forces, published_series,

@@ -16,7 +16,7 @@ pub(super) const PAPER_SETTINGS: [f64; 2] = [1e-6, 1e-3];
 /// Time for which the wall stands, in √(r/g).
 pub(crate) const WALL_STARTS: f64 = 1.0;
 /// Restitution of the program.
-const RESTITUTION: f64 = 0.3;
+pub(super) const RESTITUTION: f64 = 0.3;
 
 /// What gives the rows of a file within a range of their first number.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
@@ -164,11 +164,9 @@ fn force(
             time_step,
             end_time: rows.end_time,
             run: PublishedRun {
-                sampling: rows.end_time.map(|time| ForceSampling {
-                    first: (time / time_step).round() as u64,
-                    every: 1,
-                    count: 1,
-                }),
+                sampling: rows
+                    .end_time
+                    .map(|time| ForceSampling::at((time / time_step).round() as u64)),
                 ..run(start, &stack, wall_speed, time_step)
             },
         })
@@ -193,8 +191,18 @@ fn limit(stack: &Stack) -> Option<f64> {
     quasistatic_limit(stack, &ContactConvention::PAPER).yield_force
 }
 
+/// Height of the wall at first, in r: that of three cylinders that just touch.
+pub(super) fn wall_height() -> f64 {
+    2.0 + 3f64.sqrt()
+}
+
 /// The run of a stack from a `start`, at a speed and time step in the program's units.
-fn run(start: &GivenStart, stack: &Stack, wall_speed: f64, time_step: f64) -> PublishedRun {
+pub(super) fn run(
+    start: &GivenStart,
+    stack: &Stack,
+    wall_speed: f64,
+    time_step: f64,
+) -> PublishedRun {
     let root = stack.stiffness.sqrt();
     PublishedRun {
         start: GivenStart {
@@ -203,7 +211,7 @@ fn run(start: &GivenStart, stack: &Stack, wall_speed: f64, time_step: f64) -> Pu
         },
         stack: *stack,
         restitution: RESTITUTION,
-        wall_height: 2.0 + 3f64.sqrt(),
+        wall_height: wall_height(),
         wall_starts: WALL_STARTS * root,
         wall_speed: wall_speed / root,
         time_step: time_step * root,

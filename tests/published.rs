@@ -297,7 +297,7 @@ fn a_case_with_a_start_is_run_as_their_program_runs() {
     assert_eq!(format!("{force:.6}"), AUTHORS_FORCE);
     assert!(row["excess"].as_f64().unwrap() > 0.0);
     let until = |end: &str| GIVEN.replace("# end_time = 60.0", end);
-    let with_rows = until("end_time = 200.0").replace("# interval = 0.1", "interval = 0.5");
+    let with_rows = until("end_time = 900.0").replace("# interval = 0.1", "interval = 0.5");
     let output = simulated(&bench, &with_rows, "--code native --out out");
     assert!(output.status.success(), "{output:?}");
     assert_only(&bench.path("out"), &["series.csv", "summary.json"]);
@@ -307,18 +307,21 @@ fn a_case_with_a_start_is_run_as_their_program_runs() {
         (time.parse().unwrap(), force.parse().unwrap())
     });
     let rows: Vec<(f64, f64)> = rows.collect();
-    assert_eq!((rows.len(), rows[0]), (401, (0.0, 0.0)));
-    assert_eq!(rows[400].0, 200.0);
+    assert_eq!((rows.len(), rows[0]), (1801, (0.0, 0.0)));
+    assert_eq!(rows[1800].0, 900.0);
     // Half a time unit before and after the peak, which the run goes beyond.
     let highest = rows.iter().map(|row| row.1).fold(0.0, f64::max);
     assert!(highest < force && highest > 0.99 * force, "{highest}");
+    // The wall has not reached far enough.
     let output = simulated(
         &bench,
         &until("end_time = 20.0"),
         "--code native --format json",
     );
-    let row = &json_rows(std::str::from_utf8(&output.stdout).unwrap())[0];
-    assert_eq!(row["yield_force"], serde_json::Value::Null);
+    let tables: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    let [run, series] = [0, 1].map(|table| &tables["tables"][table]["rows"]);
+    assert!(run[0].is_object() && run[0]["yield_force"].is_null());
+    assert_eq!(series[0]["time"], 20.0);
 }
 
 #[test]

@@ -15,6 +15,10 @@ use crate::model::{Arms, ContactConvention, ContactLaw, Ring, Stack};
 const LARGEST_BOTTOM_OVERLAP: f64 = 2.0;
 /// The arm of the floor changes d by a small part of its own change: each step gives a digit or more.
 const MOST_STEPS: usize = 60;
+/// Relative change of d in the last step that still counts as found.
+const FOUND: f64 = 1e-12;
+/// Halvings of a distance at which there is no floor load.
+const MOST_HALVINGS: usize = 60;
 /// Distance from which the balanced state is looked for, in units of the overlap that a weight makes.
 const NEAREST: f64 = 1e-3;
 /// Part of a branch before its end by which its load is seen to rise or fall there.
@@ -176,14 +180,25 @@ impl SlidingBranch {
         let farthest = (widest / direction).min(LARGEST_BOTTOM_OVERLAP / (1.0 - direction));
         let mut near = 0.0;
         let mut far = NEAREST * self.law.overlap(self.stack.epsilon());
-        // Overlaps far beyond those of the state may have no levers.
         while lack(far) < 0.0 {
             if far >= farthest {
                 return None;
             }
             (near, far) = (far, (2.0 * far).min(farthest));
         }
-        bracketed_root(lack, near, far).map(at)
+        // Overlaps far beyond those of the state may have no levers, and no floor load that balances.
+        for _ in 0..MOST_HALVINGS {
+            let lacks = lack(far);
+            if lacks >= 0.0 {
+                return bracketed_root(lack, near, far).map(at);
+            }
+            let middle = 0.5 * (near + far);
+            match lack(middle) < 0.0 {
+                true => near = middle,
+                false => far = middle,
+            }
+        }
+        None
     }
 
     /// What the horizontal balance of cylinder 2 lacks, multiplied by (1 + T²)/2 (docs/theory.md, Eq. 88).
@@ -195,21 +210,25 @@ impl SlidingBranch {
             - self.stack.floor_friction * load * lever_sum
     }
 
-    /// d of the vertical balance of cylinder 1, whose lever ratio depends on it (docs/theory.md, Eq. 89).
+    /// d of the vertical balance of cylinder 1, whose lever ratio depends on it (docs/theory.md, Eq. 89); not a number where no
+    /// load balances, as with an arm of the floor that grows faster with d than the weight that it lifts.
     fn load(&self, place: &Place) -> f64 {
         let weight = self.stack.epsilon() * place.sum;
         let pressing = self.law.force(place.overlap) * place.difference + weight;
         let sliding = self.stack.floor_friction * place.tangent;
-        let mut load = 0.0;
+        let (mut load, mut change) = (0.0, f64::INFINITY);
         for _ in 0..MOST_STEPS {
             let next = pressing / (place.sum - sliding * self.lever_ratio(place, load));
-            let change = (next - load).abs();
+            change = (next - load).abs();
             load = next;
             if change <= f64::EPSILON * next.abs() {
                 break;
             }
         }
-        load
+        match load >= 0.0 && change <= FOUND * load {
+            true => load,
+            false => f64::NAN,
+        }
     }
 
     /// R_f/R_c at a floor load.
@@ -222,6 +241,8 @@ impl SlidingBranch {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::model::ContactArms;
+    use crate::theory::quasistatic_limit;
 
     fn branch(mu: f64, stiffness: f64, arms: Arms) -> SlidingBranch {
         let convention = ContactConvention::with_arms(arms);
@@ -268,6 +289,33 @@ mod tests {
             let load = pressing + stiffness.recip();
             assert!((load / point.floor_force - 1.0).abs() < 1e-14);
         }
+    }
+
+    /// Found at random: with such arms the friction of the floor lifts more than it lets down.
+    #[test]
+    fn where_no_load_balances_the_branch_ends() {
+        let arms = Arms {
+            pair: ContactArms {
+                torque: -0.925,
+                kinematic: -0.395,
+            },
+            floor: ContactArms {
+                torque: 0.327,
+                kinematic: 0.397,
+            },
+        };
+        let stack = Stack {
+            cylinder_friction: 12.6,
+            stiffness_ratio: 0.136,
+            bodies: 3,
+            ..Stack::paper(0.565, 27e3)
+        };
+        let convention = ContactConvention::with_arms(arms);
+        let branch = SlidingBranch::new(&stack, &convention);
+        assert_eq!(branch.end(0.224), SlidingEnd::Other(Event::None));
+        let limit = quasistatic_limit(&stack, &convention);
+        assert_eq!([limit.yield_force, limit.peak_force], [None; 2]);
+        assert!(limit.reason.unwrap().contains("the sliding branch ends"));
     }
 
     #[test]

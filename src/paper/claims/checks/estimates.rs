@@ -124,7 +124,7 @@ pub(crate) const CHECKS: &[Check] = &[
         let mu = 0.3;
         let yields = stiffnesses.map(|stiffness| yield_force(&paper.stack(mu, stiffness)));
         let evidence = format!(
-            "the authors' program (compress.c) has springs of ${}$ and ${}\\,mg/r$ times a common factor; the stiffnesses span {decades:.0} decades, in steps of one, and at {} the exact limit has the yield forces {} (in $mg$)",
+            "the authors' program (compress.c) has springs of ${}$ and ${}$ $mg/r$ times a common factor; the stiffnesses span {decades:.0} decades, in steps of one, and at {} the exact limit has the yield forces {} (in $mg$)",
             number(AUTHORS_SPRINGS[0]),
             number(AUTHORS_SPRINGS[1]),
             values(FRICTION, &[mu]),

@@ -184,13 +184,18 @@ pub(crate) const CHECKS: &[Check] = &[
         Ok(Finding::new(deviation, 1e-3, evidence))
     }),
     Check::simulations("runs-scale", |paper, runs| {
-        let mut listed = Vec::new();
+        let [mut listed, mut stiffest] = [Vec::new(), Vec::new()];
         let mut deviations = Vec::new();
         for own in &runs.exponents {
             let printed = exponent_at(own.friction, [0.0, paper.scaling_at, paper.scaling_above]);
-            // At finite stiffnesses the exact limit itself has other exponents.
+            // At these stiffnesses the exact limit itself has other exponents, and those that are printed for stiff cylinders.
             let farther = (own.exponent - printed).abs() - (own.exact - printed).abs();
-            deviations.push(farther.max(0.0));
+            let [soft, stiff] = STIFF.map(|stiffness| {
+                libm::log(yield_force(&paper.stack(own.friction, stiffness)) + 3.0)
+            });
+            let asymptotic = (stiff - soft) / libm::log(STIFF[1] / STIFF[0]);
+            deviations.extend([farther.max(0.0), (asymptotic - printed).abs()]);
+            stiffest.push(format!("${asymptotic:.4}$"));
             let uncertainty = own.uncertainty.map_or_else(String::new, |uncertainty| {
                 format!(" \\pm {}", scientific(uncertainty, 0))
             });
@@ -201,21 +206,27 @@ pub(crate) const CHECKS: &[Check] = &[
                 values(FRICTION, &[own.friction])
             ));
         }
-        if deviations.len() < 3 {
+        if listed.len() < 3 {
             return Err(missing("Fig. 2(b)"));
         }
         let evidence = format!(
-            "slopes of $\\ln(f + 3mg)$ over $\\ln(k_n r/mg)$, {}, fitted from ${}$ on: {}; for $\\epsilon \\to 0$ those of the exact limit \
-             become the paper's, which are 0 below $\\mu_c$, {} at $\\mu_c$ and {} above",
+            "slopes of $\\ln(f + 3mg)$ over $\\ln(k_n r/mg)$, {}, fitted from ${}$ on: {}; from ${}$ to ${}$ the exact limit \
+             has {}, and the paper 0 below $\\mu_c$, {} at $\\mu_c$ and {} above",
             runs.who,
             number(FITTED_FROM),
             list(listed),
+            number(STIFF[0]),
+            number(STIFF[1]),
+            list(stiffest),
             paper.scaling_at,
             paper.scaling_above
         );
         Ok(Finding::new(worst(deviations), 2e-3, evidence))
     }),
 ];
+
+/// Stiffnesses between which the exact limit has the exponents for ε → 0, to some digits.
+const STIFF: [f64; 2] = [1e7, 1e9];
 
 /// What "converged", "unchanged" and "is" can mean for a yield force of the figure on convergence: half the height of its circles,
 /// 6 of 43.58 points for 0.1 m g (figS3b.pdf of the authors' repository), as a part of f there.

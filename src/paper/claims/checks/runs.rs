@@ -6,6 +6,7 @@ use crate::model::{CRITICAL_FRICTION, ContactConvention};
 use crate::paper::claims::finding::{Finding, relative, violation, worst};
 use crate::paper::claims::notation::{FRICTION, list, number, percent, scientific, stack, values};
 use crate::paper::claims::simulations::Simulations;
+use crate::paper::claims::truth::yield_force;
 use crate::paper::reproduction::{
     FAST_WALL, FITTED_FROM, SCALING_FRICTIONS, WALL_SPEEDS, convergence_stack, exponent_at,
     force_series_stack,

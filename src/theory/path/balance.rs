@@ -302,16 +302,15 @@ impl Contacts {
             -ring.bodies * upper.tangential * upper.radius * sin,
             -1.0,
         );
-        // What turns with the contact changes the balances by turning.
-        let turning = a + p * (1.0 - left_behind);
+        // What turns with the contact changes the balances by turning; p does not.
         let turning_shear = b * (1.0 - left_behind);
         let known = Vector3::new(
             (upper.tangential * upper.lever - lower.tangential * lower.lever * cos) * distance
                 + left_behind * p * upper.lever,
             (upper.tangential + lower.tangential + bottom_stiffness) * distance * cos
-                - turning * cos
+                - a * cos
                 - turning_shear * sin,
-            ring.bodies * (upper.tangential * distance * sin - turning * sin + turning_shear * cos),
+            ring.bodies * (upper.tangential * distance * sin - a * sin + turning_shear * cos),
         );
         let solution = system
             .lu()
@@ -556,5 +555,126 @@ impl Ray {
             };
             growth * self.shear / law.unstiffened(overlap)
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::model::{HistoryUpdate, Law, TangentialHistory};
+    use crate::theory::events::Path;
+    use crate::theory::path::{FollowedPath, followed_path};
+
+    fn convention(law: Law, history_update: HistoryUpdate) -> ContactConvention {
+        ContactConvention {
+            law,
+            history_update,
+            ..ContactConvention::PAPER
+        }
+    }
+
+    fn contacts(law: Law, history_update: HistoryUpdate) -> Contacts {
+        let convention = convention(law, history_update);
+        Contacts::new(&Stack::paper(0.3, 1e2), &convention, BottomContact::Ignored)
+    }
+
+    #[test]
+    fn the_floor_spring_is_stretched_by_way_and_rotation() {
+        let stack = Stack::paper(0.3, 1e2);
+        let convention = convention(Law::LINEAR, HistoryUpdate::Fixed);
+        let path = followed_path(&stack, &convention, BottomContact::Ignored);
+        for parameter in [0.5 * path.settled, path.settled, path.settled + 0.3] {
+            let state = path.state(parameter);
+            let stretch = state.outward(&path.contacts.ring) + state.rotation;
+            let off = state.floor_shear * stack.stiffness_ratio - stretch;
+            assert!(off.abs() < 1e-12, "{off:e}");
+        }
+    }
+
+    #[test]
+    fn a_spring_that_nothing_turns_is_left_behind_from_the_beginning() {
+        for law in [Law::LINEAR, Law::HERTZ] {
+            let contacts = contacts(law, HistoryUpdate::Fixed);
+            let end = contacts.beginning(1.0).state;
+            let parts = 1000;
+            let width = 1.0 / f64::from(parts);
+            let middles = (0..parts).map(|part| (f64::from(part) + 0.5) * width);
+            let shears = middles.map(|at| contacts.beginning(at).state.pair_shear);
+            let expected = -shears.sum::<f64>() * width * end.turned;
+            let off = end.pair_lift / expected - 1.0;
+            assert!(off.abs() < 1e-5, "{law:?} {off:e}");
+        }
+    }
+
+    #[test]
+    fn a_sliding_state_lies_where_it_was_asked_for() {
+        let contacts = contacts(Law::LINEAR, HistoryUpdate::Fixed);
+        let path = FollowedPath::new(contacts);
+        let point = path.point(path.settled);
+        for beyond in [1e-3, 0.02, 0.2] {
+            let state = contacts.sliding_state(beyond, &point);
+            assert!((contacts.beyond(&state) - beyond).abs() < 1e-15);
+        }
+    }
+
+    /// A spring of stiffness √G keeps its length while the overlap G grows; one that is rescaled shortens as √G while it falls.
+    #[test]
+    fn only_springs_of_contacts_that_unload_are_rescaled() {
+        let rescaled = Law {
+            history: TangentialHistory::DisplacementRescaled,
+            ..Law::HERTZ
+        };
+        let contacts = contacts(rescaled, HistoryUpdate::Rotated);
+        let plain = self::contacts(Law::HERTZ, HistoryUpdate::Rotated);
+        let start = FollowedPath::new(contacts);
+        let start = start.state(start.settled + 0.3);
+        let memory = |contacts: &Contacts, state: &State| {
+            let slope = contacts.derivative(state, Leg::Wall, false);
+            let (sin, cos) = libm::sincos(contacts.ring.angle + state.turned);
+            let distance = 2.0 - state.pair_overlap;
+            let floor_force = Leg::Wall.floor_force(state.load, contacts.epsilon, &contacts.ring);
+            let floor_overlap = contacts.wall.overlap(floor_force);
+            let sinking = Leg::Wall.floor_force_slope(&contacts.ring) * slope.load
+                / contacts.wall.stiffness(floor_overlap);
+            let pair = contacts.law.at(state.pair_overlap).tangential_stiffness;
+            let floor = contacts.wall.at(floor_overlap).tangential_stiffness;
+            let kept = [
+                slope.pair_shear - pair * (distance - slope.rotation),
+                slope.floor_shear
+                    - floor * (distance * cos - slope.pair_overlap * sin + slope.rotation),
+            ];
+            let growth = [
+                state.pair_shear * slope.pair_overlap / state.pair_overlap,
+                state.floor_shear * sinking / floor_overlap,
+            ];
+            let loads = [slope.pair_overlap >= 0.0, sinking >= 0.0];
+            let powers = [kept[0] / growth[0], kept[1] / growth[1]];
+            (loads, powers)
+        };
+        let mut seen = [false; 4];
+        for (pair, floor) in [
+            (1.0, 1.0),
+            (-8.0, 1.0),
+            (8.0, 1.0),
+            (1.0, -8.0),
+            (1.0, 8.0),
+            (-8.0, -8.0),
+            (8.0, 8.0),
+        ] {
+            let state = State {
+                pair_shear: pair * start.pair_shear,
+                floor_shear: floor * start.floor_shear,
+                ..start
+            };
+            let (loads, powers) = memory(&contacts, &state);
+            seen[usize::from(loads[0]) + 2 * usize::from(loads[1])] = true;
+            for (loads, power) in loads.into_iter().zip(powers) {
+                let expected = if loads { 0.5 } else { 1.0 };
+                assert!((power - expected).abs() < 1e-6, "{loads} {power}");
+            }
+            let (_, powers) = memory(&plain, &state);
+            assert!(powers.iter().all(|power| (power - 0.5).abs() < 1e-6));
+        }
+        assert!(seen[0] && seen[3], "{seen:?}");
     }
 }

@@ -302,7 +302,8 @@ impl Contacts {
             -ring.bodies * upper.tangential * upper.radius * sin,
             -1.0,
         );
-        // What turns with the contact changes the balances by turning; p does not.
+        // What turns with the contact changes the balances by turning: of the force of a spring that turns b, as it has no
+        // part p along the normal.
         let turning_shear = b * (1.0 - left_behind);
         let known = Vector3::new(
             (upper.tangential * upper.lever - lower.tangential * lower.lever * cos) * distance

@@ -678,4 +678,88 @@ mod tests {
         }
         assert!(seen[0] && seen[3], "{seen:?}");
     }
+
+    /// Torque and horizontal force on body 2 and vertical force on body 1, on a floor that slides.
+    fn balances(contacts: &Contacts, state: &State, friction: f64) -> [f64; 3] {
+        let ring = &contacts.ring;
+        let (sin, cos) = libm::sincos(ring.angle + state.turned);
+        let floor_force = Leg::Wall.floor_force(state.load, contacts.epsilon, ring);
+        let floor_overlap = contacts.wall.overlap(floor_force);
+        let normal = contacts.law.force(state.pair_overlap) + state.pair_lift;
+        let overlap = ring.neighbour_overlap(state.outward(ring));
+        let (b, e) = (state.pair_shear, friction * floor_force);
+        let arms = &contacts.arms;
+        [
+            b * (1.0 + arms.pair.torque * state.pair_overlap)
+                - e * (1.0 + arms.floor.torque * floor_overlap),
+            normal * sin - b * cos - e + ring.push * contacts.law.force(overlap),
+            ring.bodies * (normal * cos + b * sin) - state.load,
+        ]
+    }
+
+    #[test]
+    fn a_sliding_stack_stays_in_balance_and_its_spring_is_left_behind() {
+        const FRICTION: f64 = 0.3;
+        let rescaled = Law {
+            history: TangentialHistory::DisplacementRescaled,
+            ..Law::HERTZ
+        };
+        let mut unloading = 0;
+        for law in [Law::LINEAR, Law::HERTZ, rescaled] {
+            let convention = ContactConvention {
+                arms: Arms::reciprocal(-0.5, 0.7),
+                ..convention(law, HistoryUpdate::Fixed)
+            };
+            let stack = Stack {
+                stiffness_ratio: 0.5,
+                ..Stack::paper(FRICTION, 1e2)
+            };
+            let contacts = Contacts::new(&stack, &convention, BottomContact::Followed);
+            let path = FollowedPath::new(contacts);
+            let start = path.state(path.settled + 0.1);
+            let lifts = [1.0, -30.0, 30.0, -300.0, 300.0, -3000.0, 3000.0];
+            let progresses = [Progress::Load, Progress::Direction(0.4)];
+            let all = lifts
+                .into_iter()
+                .flat_map(|lift| progresses.map(|own| (lift, own)));
+            for (lift, progress) in all {
+                let state = State {
+                    pair_lift: lift * start.pair_lift,
+                    ..start
+                };
+                let slope = contacts.sliding_derivative(&state, Leg::Wall, FRICTION, progress);
+                let scale = 1e-6 / slope.load.abs().max(slope.turned.abs());
+                let moved = |step: f64| {
+                    let numbers = state.to_array::<FIXED>().into_iter();
+                    let numbers = numbers.zip(slope.to_array::<FIXED>());
+                    let mut moved = numbers.map(|(number, rate)| number + step * rate);
+                    State::from_array::<FIXED>(std::array::from_fn(|_| moved.next().unwrap()))
+                };
+                let [after, before] =
+                    [scale, -scale].map(|step| balances(&contacts, &moved(step), FRICTION));
+                for (after, before) in after.into_iter().zip(before) {
+                    assert!(
+                        (after - before).abs() < 1e-12,
+                        "{law:?} {lift} {after} {before}"
+                    );
+                }
+                let slope_of_floor = Leg::Wall.floor_force_slope(&contacts.ring);
+                assert_eq!(slope.floor_shear, FRICTION * slope_of_floor * slope.load);
+                let kept = slope.pair_lift + state.pair_shear * slope.turned;
+                let growth = state.pair_lift * slope.pair_overlap / state.pair_overlap;
+                let unloads = slope.pair_overlap < 0.0 && law == rescaled;
+                unloading += usize::from(unloads);
+                let expected = match (law == Law::LINEAR, unloads) {
+                    (true, _) => 0.0,
+                    (_, true) => 1.0,
+                    (_, false) => 0.5,
+                };
+                assert!(
+                    (kept - expected * growth).abs() < 1e-9 * growth.abs(),
+                    "{law:?} {lift}"
+                );
+            }
+        }
+        assert!(unloading > 0);
+    }
 }

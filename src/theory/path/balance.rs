@@ -608,6 +608,28 @@ mod tests {
     }
 
     #[test]
+    fn the_beginning_of_bodies_that_touch_is_in_balance() {
+        for bodies in [2, 3, 5] {
+            let stack = Stack {
+                bodies,
+                stiffness_ratio: 0.3,
+                ..Stack::paper(0.3, 1e2)
+            };
+            let contacts =
+                Contacts::new(&stack, &ContactConvention::TURNING, BottomContact::Followed);
+            let beginning = contacts.beginning(1e-5);
+            assert!(beginning.closed);
+            let (state, ring) = (beginning.state, &contacts.ring);
+            let (sine, cosine) = (0.5 * ring.radius, 0.5 * ring.rise);
+            let neighbours = ring.push * ring.neighbour_overlap(state.outward(ring));
+            let normal = state.pair_overlap;
+            let lack = normal * sine - state.pair_shear * (1.0 + cosine) + neighbours;
+            assert!(neighbours > 0.01 * normal);
+            assert!(lack.abs() < 1e-4 * normal, "{bodies} {}", lack / normal);
+        }
+    }
+
+    #[test]
     fn a_sliding_state_lies_where_it_was_asked_for() {
         let contacts = contacts(Law::LINEAR, HistoryUpdate::Fixed);
         let path = FollowedPath::new(contacts);

@@ -65,8 +65,8 @@ impl LimitCurve {
     }
 
     /// What a finite wall speed adds to the `limit` of `stack`, which is on the curve, to first order in the speed. `None`
-    /// unless the floor slips first and with c = 0, where springs are rescaled, and where the sliding stack does not give
-    /// way.
+    /// unless the floor slips first and with c = 0, where springs are rescaled, where frozen springs count alone, and where the
+    /// sliding stack does not give way.
     ///
     /// ```
     /// use tristack::model::{ContactConvention, Stack};

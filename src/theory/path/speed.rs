@@ -6,7 +6,7 @@
 
 use super::FollowedPath;
 use super::balance::{Contacts, Leg, State};
-use crate::model::{ContactConvention, CoulombOperand, Stack};
+use crate::model::{ContactConvention, CoulombOperand, SlidingSpring, Stack};
 use crate::theory::events::{Event, locate};
 use crate::theory::root::bracketed_root;
 use differential_equations::prelude::{ExplicitRungeKutta, IVP, ODE};
@@ -356,13 +356,16 @@ impl ODE<f64, [f64; NUMBERS]> for LaggingLeg<'_> {
 
 impl FollowedPath {
     /// What a finite speed adds where the floor of `stack`, which is on the path, slips with c = 0; `None` where springs are
-    /// rescaled, or where the sliding stack does not give way.
+    /// rescaled, where frozen springs count alone, or where the sliding stack does not give way.
     pub(in crate::theory) fn speed_excess(
         &self,
         stack: &Stack,
         convention: &ContactConvention,
     ) -> Option<SpeedExcess> {
-        if convention.law.history.is_rescaled() {
+        // A frozen spring that counts alone sticks again for a step whenever the limit has grown past it, and its damper acts then.
+        let chatters = convention.coulomb_operand == CoulombOperand::Spring
+            && convention.sliding_spring == SlidingSpring::Frozen;
+        if convention.law.history.is_rescaled() || chatters {
             return None;
         }
         let slip = locate(self, Event::FloorSlip, stack).filter(|&slip| slip > self.settled)?;
@@ -735,6 +738,7 @@ mod tests {
         let stack = Stack::paper(0.3, 1e2);
         let alone = ContactConvention {
             coulomb_operand: CoulombOperand::Spring,
+            sliding_spring: SlidingSpring::FollowsLimit,
             ..ContactConvention::TURNING
         };
         let (with_damping, alone) = (
@@ -744,13 +748,11 @@ mod tests {
         // The damper holds the floor beyond the limit until the spring has reached it.
         assert_eq!(alone.onset, with_damping.onset);
         assert!(alone.peak > with_damping.peak, "{alone:?} {with_damping:?}");
-        // Native runs at the wall speeds 1e-5 and 5e-6, extrapolated to 0 (time step 0.005, restitution of the convention): 329.9 and
-        // 281.3, to some 0.3 %.
-        assert!((alone.peak / 329.9 - 1.0).abs() < 5e-3, "{alone:?}");
-        assert!(
-            (with_damping.peak / 281.3 - 1.0).abs() < 5e-3,
-            "{with_damping:?}"
-        );
+        // Native runs at the wall speeds 1e-5 and 5e-6, extrapolated to 0 (time steps 0.01 and 0.005): 294.7 and 281.3, to some 0.5 %
+        // by the ringing after the touch of the wall.
+        assert!((alone.peak / 294.7 - 1.0).abs() < 1e-2, "{alone:?}");
+        let off = with_damping.peak / 281.3 - 1.0;
+        assert!(off.abs() < 1e-2, "{with_damping:?}");
     }
 
     /// A law whose contacts have no stiffness when they just touch.
@@ -790,6 +792,13 @@ mod tests {
             assert!(curve.speed_excess(stack, &limit).is_none());
             limit
         };
+        // Native has 330 per speed where a continuous motion would have 296.
+        let frozen = ContactConvention {
+            coulomb_operand: CoulombOperand::Spring,
+            ..paper
+        };
+        assert_eq!(frozen.sliding_spring, SlidingSpring::Frozen);
+        assert!(none(&Stack::paper(0.3, 1e2), &frozen).yield_force.is_some());
         // The cylinders slip first.
         let rough = Stack {
             cylinder_friction: 0.2,

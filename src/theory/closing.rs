@@ -178,6 +178,8 @@ mod tests {
         assert_eq!([limit.slip_onset, limit.wall_travel], [None; 2]);
         assert!(limit.peak_travel.is_some_and(|travel| travel > 0.0));
         assert_eq!(limit.travel_to_watch(), limit.peak_travel);
+        assert_eq!(limit.reason, None);
+        assert!(explanation(Event::CylinderSlip).contains("cylinders slip"));
     }
 
     #[test]

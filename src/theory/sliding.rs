@@ -291,6 +291,19 @@ mod tests {
         }
     }
 
+    /// Twice as far from the stress-free state the levers of these arms are gone.
+    #[test]
+    fn a_state_is_found_before_places_without_a_load() {
+        let branch = branch(0.4, 2.0, Arms::reciprocal(-1.0, -1.0));
+        for direction in [0.5, 0.8] {
+            let point = branch.point(direction);
+            let (sin, cos) = libm::sincos(2.0 * libm::atan(point.tangent));
+            let normal = point.pair_overlap;
+            let lack = normal * (sin - point.pair_ratio * cos) - 0.4 * point.floor_force;
+            assert!(lack < 0.0 && (lack + point.bottom_force).abs() < 1e-12);
+        }
+    }
+
     /// Found at random: with such arms the friction of the floor lifts more than it lets down.
     #[test]
     fn where_no_load_balances_the_branch_ends() {

@@ -637,7 +637,10 @@ mod tests {
         for beyond in [1e-3, 0.02, 0.2] {
             let state = contacts.sliding_state(beyond, &point);
             assert!((contacts.beyond(&state) - beyond).abs() < 1e-15);
-            assert!((state.floor_shear / state.pair_shear - 1.0).abs() < 1e-9, "arms 0");
+            assert!(
+                (state.floor_shear / state.pair_shear - 1.0).abs() < 1e-9,
+                "arms 0"
+            );
         }
     }
 

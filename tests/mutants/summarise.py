@@ -94,7 +94,10 @@ def main():
     mutants = all_mutants(tried)
     is_tried = lambda entry: any(belongs(entry["mutant"], area) for area in tried)
     reasons = tomllib.loads((HERE / "survivors.toml").read_text())["survivor"]
-    untried = [entry for entry in before["survivors"] if not is_tried(entry)]
+    kept_areas = [area for area in areas if area not in tried]
+    untried = [
+        entry for entry in before["survivors"] if any(belongs(entry["mutant"], area) for area in kept_areas)
+    ]
     reasons = [entry for entry in reasons if is_tried(entry)]
     survivors = collections.Counter(
         without_place(name) for name in mutants if last.get(name) == "survived"

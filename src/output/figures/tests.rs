@@ -3,6 +3,7 @@
 use super::style::{Mark, PUBLISHED_CURVE};
 use super::*;
 use crate::code::{Code, Interrupt};
+use crate::files::write_atomically;
 use crate::model::{HistoryUpdate, Power, Stack};
 use crate::paper::published::{
     Checkout, Published, RepeatedForce, RepeatedSeries, published_forces, published_series,
@@ -388,7 +389,7 @@ fn published() -> Published {
     ] {
         let file = place.path().join(file);
         std::fs::create_dir_all(file.parent().unwrap()).unwrap();
-        std::fs::write(file, rows).unwrap();
+        write_atomically(&file, rows.as_bytes()).unwrap();
     }
     let checkout = Checkout::read(place.path()).unwrap();
     let forces = published_forces(&checkout).into_iter();

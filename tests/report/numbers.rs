@@ -161,7 +161,7 @@ fn agreement_and_largest_error_are_those_of_the_yield_curves() {
         count(&curves, "verdict", "agrees") as f64,
         curves.len() as f64,
     );
-    let text = item("At the stacks of Fig. 2(a)");
+    let text = item("At the stiffnesses of Fig. 2(a)");
     // The figure's number in the paper, "2(a)", and the 3 of F + 3.
     assert_numbers(&text, &[2.0, agreeing, all, largest, 3.0]);
     for row in curves {

@@ -74,12 +74,10 @@ pub(super) fn register(claims: &[ClaimJudgement]) -> Section {
     let blocks = vec![
         Block::paragraph(
             "Every checkable statement of paper and supplement, displayed equations included. Each verdict \
-             is derived by running the check; the register is `reference/claims.toml`. A formula holds if it is \
-             right to round-off, any other statement up to the deviation that is given with it. Where the words of a claim leave room, \
-             as “agree well” or “of order” do, it holds approximately up to a larger one, which is given with its unit and the reason. \
-             “As published” is a second verdict, by the data of the authors. Native is the DEM of tristack, which has the paper’s \
-             contact law; exact limit and path of equilibria are those of its theory for a wall that moves infinitely slowly; the elastic \
-             equation is Eq. (8).",
+             is derived by running the check; the register is `reference/claims.toml`. A formula holds if it is right to \
+             round-off, any other statement up to `holds_to` of claims.json. Where the words of a claim leave room, as “agree well” or \
+             “of order” do, it holds approximately up to a larger deviation, given with unit and reason. Native is the DEM of tristack; \
+             the elastic equation is Eq. (8).",
         ),
         Block::Claims(Claims {
             table: PageTable::new("claims", caption, &claims_table(claims), table),
@@ -136,10 +134,11 @@ fn on_page((number, own): Numbered, equations: &[PageEquation]) -> PageClaim {
     }
 }
 
-/// The evidence, the deviation where it is not held to round-off, what the words of a claim that does not simply hold are taken to
+/// The evidence, the deviation beside that of a second verdict, what the words of a claim that does not simply hold are taken to
 /// allow, and a full stop before its sources.
 fn evidence(own: &ClaimJudgement) -> String {
-    let criterion = criterion(own.measure.as_ref());
+    let measure = own.measure.as_ref();
+    let criterion = criterion(measure.filter(|_| own.as_published.is_some()));
     let allowed = own.claim.allowed.as_ref();
     let allowed = allowed.filter(|_| own.verdict != ClaimVerdict::Holds);
     let allowed = allowed.map(|allowed| {

@@ -339,6 +339,11 @@ fn what_a_case_with_a_start_cannot_have_is_named() {
     let native = "--code native";
     refused(GIVEN, "--code yade", &["--code", "yade", "native"]);
     refused(GIVEN, "--code native --svg a.svg", &["--svg", "a.svg"]);
+    refused(
+        GIVEN,
+        "--code native --time-limit 5",
+        &["--time-limit", "5"],
+    );
     for (from, to, parts) in [
         (
             "time_step = 1e-3",
@@ -358,7 +363,7 @@ fn what_a_case_with_a_start_cannot_have_is_named() {
         (
             "restitution = 0.3",
             "restitution = 0",
-            ["restitution", "from"],
+            ["`restitution`", "from"],
         ),
         ("mu = 0.3", "mu = 0.3\nbodies = 3", ["stack.bodies", "2"]),
         (

@@ -61,6 +61,10 @@ fn refuse(arguments: &Arguments) -> Result<(), CliError> {
         let accepted = "native: no other code does what the authors' program does, which a case with a start is for";
         return Err(invalid("--code", arguments.code().to_string(), accepted).into());
     }
+    if let Some(seconds) = arguments.time_limit {
+        let accepted = "left out: a run from a given start has its end in the case";
+        return Err(invalid("--time-limit", seconds.to_string(), accepted).into());
+    }
     match arguments.pictures.named() {
         Some((flag, file)) => {
             let accepted = "left out: a case with a start keeps no places of its bodies";

@@ -88,7 +88,7 @@ pub(super) struct Arguments {
     pub(super) pictures: Pictures,
     /// Time limit in seconds [default: 30 s plus 100 us per step for external codes, none for native]
     #[arg(long, value_name = "SECONDS", value_parser = seconds)]
-    time_limit: Option<f64>,
+    pub(super) time_limit: Option<f64>,
     /// Format of the result
     #[arg(long, value_enum, default_value_t = Format::Table)]
     pub(super) format: Format,

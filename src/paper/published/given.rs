@@ -120,11 +120,14 @@ impl GivenCase {
                 within(key, number, accepted, "numbers from -10 to 10".to_owned())?;
             }
         }
+        let restitution = self.restitution;
+        let accepted = (1e-3..=1.0).contains(&restitution);
+        let words = "a number from 1e-3 to 1".to_owned();
+        within("restitution", restitution, accepted, words)?;
         let convention = ContactConvention {
-            restitution: self.restitution,
+            restitution,
             ..ContactConvention::PAPER
         };
-        convention.validate()?;
         let longest = stack.longest_time_step(&convention) / stack.stiffness.sqrt();
         let positive = |key: &str, value: f64, highest: f64| {
             let words = format!("a number above 0, at most {highest:.3e}");

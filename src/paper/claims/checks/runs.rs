@@ -160,9 +160,12 @@ pub(crate) const CHECKS: &[Check] = &[
         let mut below: Vec<(f64, f64)> = below.collect();
         below.sort_by(|left, right| left.0.total_cmp(&right.0));
         let &(stiffness, last) = below.last().ok_or_else(|| missing("Fig. 2(b)"))?;
-        // What is lost again of the closest approach.
-        let distances = below.iter().map(|own| own.1.abs());
-        let receding = last.abs() - distances.fold(f64::INFINITY, f64::min);
+        // The most by which stiffer cylinders are farther off than softer ones.
+        let (mut closest, mut receding) = (f64::INFINITY, 0.0f64);
+        for &(_, off) in &below {
+            receding = receding.max(off.abs() - closest);
+            closest = closest.min(off.abs());
+        }
         let crossed = below
             .windows(2)
             .find(|pair| pair[0].1 < 0.0 && pair[1].1 > 0.0);

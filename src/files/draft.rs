@@ -120,16 +120,19 @@ pub(crate) fn remove_abandoned(directory: &Path, prefix: &OsStr) {
     });
     for entry in own {
         let path = entry.path();
-        let is_free = |file: File| file.try_lock().is_ok();
+        // Held until the removal is done, so that its maker cannot take it into use meanwhile.
+        let hold = |file: File| file.try_lock().ok().map(|()| file);
         // Another program may be faster.
         let _ = match entry.file_type() {
-            Ok(kind) if kind.is_dir() && open_directory(&path).is_ok_and(is_free) => {
-                fs::remove_dir_all(&path)
-            }
-            Ok(kind) if kind.is_file() && open_to_read(&path).is_ok_and(is_free) => {
-                fs::remove_file(&path)
-            }
-            _ => Ok(()),
+            Ok(kind) if kind.is_dir() => open_directory(&path)
+                .ok()
+                .and_then(hold)
+                .map(|_held| fs::remove_dir_all(&path)),
+            Ok(kind) if kind.is_file() => open_to_read(&path)
+                .ok()
+                .and_then(hold)
+                .map(|_held| fs::remove_file(&path)),
+            _ => None,
         };
     }
 }
@@ -139,17 +142,34 @@ fn open_to_read(path: &Path) -> std::io::Result<File> {
 }
 
 /// Creates a directory in `parent`, locked as long as the file beside it is open, and removed when dropped.
+///
+/// Before it is locked, another program may take it for abandoned; it is then created under another name.
 pub(crate) fn locked_directory(
     parent: &Path,
     prefix: &str,
     mode: u32,
 ) -> std::io::Result<(TempDir, File)> {
-    let directory = temporary(prefix.as_ref())
-        .permissions(Permissions::from_mode(mode))
-        .tempdir_in(parent)?;
-    let lock = open_directory(directory.path())?;
-    let _ = lock.try_lock();
-    Ok((directory, lock))
+    for _ in 0..TRIES {
+        let directory = temporary(prefix.as_ref())
+            .permissions(Permissions::from_mode(mode))
+            .tempdir_in(parent)?;
+        if let Some(lock) = take_into_use(directory.path())? {
+            return Ok((directory, lock));
+        }
+    }
+    let message = format!("{} lost {TRIES} new directories", parent.display());
+    Err(std::io::Error::other(message))
+}
+
+/// Locks the new directory at `path`; `None` if another program is about to remove it, or has done so. Where files
+/// cannot be locked, nothing is taken for abandoned.
+fn take_into_use(path: &Path) -> std::io::Result<Option<File>> {
+    let lock = match open_directory(path) {
+        Err(error) if error.kind() == ErrorKind::NotFound => return Ok(None),
+        opened => opened?,
+    };
+    let taken = matches!(lock.try_lock(), Err(TryLockError::WouldBlock)) || !path.exists();
+    Ok((!taken).then_some(lock))
 }
 
 /// Attempts at a directory that no other program takes for abandoned before it is locked.
@@ -170,26 +190,14 @@ impl Scratch {
     pub fn new() -> std::io::Result<Self> {
         let root = std::env::temp_dir();
         remove_abandoned(&root, SCRATCH.as_ref());
-        for _ in 0..TRIES {
-            let mut outer = temporary(SCRATCH.as_ref());
-            let outer = outer.permissions(Permissions::from_mode(OWNER_ALONE));
-            let outer = outer.tempdir_in(&root)?;
-            // Before it is locked, another program may take it for abandoned.
-            let lock = open_directory(outer.path()).ok();
-            let free = |lock: &File| !matches!(lock.try_lock(), Err(TryLockError::WouldBlock));
-            let directory = outer.path().join("inner");
-            if let Some(lock) = lock.filter(free)
-                && fs::create_dir(&directory).is_ok()
-            {
-                return Ok(Self {
-                    directory,
-                    _outer: outer,
-                    _lock: lock,
-                });
-            }
-        }
-        let message = format!("{} lost {TRIES} new directories", root.display());
-        Err(std::io::Error::other(message))
+        let (outer, lock) = locked_directory(&root, SCRATCH, OWNER_ALONE)?;
+        let directory = outer.path().join("inner");
+        fs::create_dir(&directory)?;
+        Ok(Self {
+            directory,
+            _outer: outer,
+            _lock: lock,
+        })
     }
 
     pub fn path(&self) -> &Path {
@@ -276,6 +284,39 @@ mod tests {
         held.lock().unwrap();
         write_atomically(&directory.path().join("table.csv"), b"table").unwrap();
         assert!(path.exists());
+    }
+
+    #[test]
+    fn a_new_directory_that_is_being_removed_is_not_taken_into_use() {
+        let parent = tempfile::tempdir().unwrap();
+        let path = parent.path().join("new");
+        assert!(take_into_use(&path).unwrap().is_none());
+        fs::create_dir(&path).unwrap();
+        let remover = open_directory(&path).unwrap();
+        remover.lock().unwrap();
+        assert!(take_into_use(&path).unwrap().is_none());
+        drop(remover);
+        assert!(take_into_use(&path).unwrap().is_some());
+    }
+
+    /// Several threads clean up while others begin: none loses its directory.
+    #[test]
+    fn no_directory_is_lost_to_one_who_cleans_up() {
+        let parent = tempfile::tempdir().unwrap();
+        std::thread::scope(|threads| {
+            for _ in 0..4 {
+                threads.spawn(|| {
+                    for _ in 0..100 {
+                        remove_abandoned(parent.path(), "draft-".as_ref());
+                        let made = locked_directory(parent.path(), "draft-", OWNER_ALONE);
+                        let (directory, _lock) = made.expect("a directory");
+                        let inner = directory.path().join("inner");
+                        fs::create_dir(inner).expect("its directory is there");
+                    }
+                });
+            }
+        });
+        assert!(names(parent.path()).is_empty());
     }
 
     #[test]

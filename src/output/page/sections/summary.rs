@@ -332,8 +332,11 @@ pub(crate) fn points(judgements: &[Judgement]) -> DataTable<'_> {
                 });
                 own.and_then(|row| row.yield_force())
             })
-            .means("F by this code")
-            .shown_as(code.as_str(), digits::<7>);
+            .means("F by this code");
+        // The page has no empty columns for codes that were not run.
+        if judgements.iter().any(|row| row.code == code) {
+            columns = columns.shown_as(code.as_str(), digits::<7>);
+        }
     }
     columns.rows(rows)
 }

@@ -21,6 +21,8 @@ pub fn strike(fault: E, round: &mut Round) -> Result<Aftermath, String> {
     }
     let options = match fault {
         E::Hangs | E::StopsItself => "--time-limit 1",
+        // Harmless however long it takes, and on a busy machine it takes longer than a run may.
+        E::WritesTenGigabytes => "--time-limit 600",
         _ => "",
     };
     let output = round.run(options);

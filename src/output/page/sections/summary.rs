@@ -111,7 +111,7 @@ fn of_codes(reproduction: &Reproduction) -> String {
     let largest = agreements.iter().map(|own| own.largest_error);
     format!(
         "At the stiffnesses of Fig. 2(a), {agreeing} of {rows} yield forces of {} agree with the exact quasi-static limit under the \
-         contact convention of the code, which is not the paper’s in all of them; the largest error is {} of $F + 3$ \
+         contact convention of the code; the largest error is {} of $F + 3$ \
          ([](#figure-yield-curves), [](#table-yield_curves)).",
         list(codes),
         power_of_ten(largest.fold(0.0, f64::max))

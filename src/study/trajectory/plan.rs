@@ -124,8 +124,10 @@ pub fn plan_trajectory(code: Code, stack: &Stack, declared: ContactConvention) -
         ..declared
     };
     let mut twins = vec![(Twin::Full, declared)];
-    // In space a spring that is turned by vector products also follows a common spin, which no time step makes small.
-    if declared != rotated && stack.bodies == PAPER_BODIES {
+    // A spring that nothing turns stays apart from one that turns, and in space one that is turned by vector products also
+    // follows a common spin: no time step makes that small.
+    let approaches_it = declared.history_update.turns() && stack.bodies == PAPER_BODIES;
+    if declared != rotated && approaches_it {
         twins.push((Twin::RotatedSpring, rotated));
     }
     let twins = twins

@@ -2,13 +2,11 @@
 
 pub mod cli;
 pub mod code;
-pub mod dem;
-pub mod experiment;
 pub mod files;
-pub mod model;
 pub mod output;
 pub mod paper;
 pub mod runs;
-pub mod series;
 pub mod study;
-pub mod theory;
+
+pub use tristack_dem::{dem, model, series};
+pub use tristack_theory::{experiment, theory};

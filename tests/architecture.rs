@@ -1,7 +1,7 @@
 //! The documents describe the project as it is.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// Every path in backquotes that begins with a folder of the project.
 fn paths_in(document: &str) -> Vec<String> {
@@ -9,6 +9,7 @@ fn paths_in(document: &str) -> Vec<String> {
     let text = std::fs::read_to_string(root.join(document)).expect("the document is there");
     let folders = [
         "src/",
+        "crates/",
         "tests/",
         "benches/",
         "reference/",
@@ -41,16 +42,33 @@ fn every_path_that_the_documents_name_exists() {
     }
 }
 
+/// The sources of the root package and of every crate.
+fn sources() -> Vec<PathBuf> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let crates = std::fs::read_dir(root.join("crates"))
+        .expect("crates")
+        .flatten();
+    let crates = crates.map(|entry| entry.path().join("src"));
+    std::iter::once(root.join("src")).chain(crates).collect()
+}
+
 #[test]
 fn every_folder_of_the_sources_is_told_of() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let told = paths_in("ARCHITECTURE.md");
-    for entry in std::fs::read_dir(root.join("src"))
-        .expect("sources")
-        .flatten()
-    {
-        if entry.path().is_dir() {
-            let folder = format!("src/{}/", entry.file_name().to_string_lossy());
+    for sources in sources() {
+        let in_project = sources.strip_prefix(root).expect("it is in the project");
+        let mut folders: Vec<String> = std::fs::read_dir(&sources)
+            .expect("sources")
+            .flatten()
+            .filter(|entry| entry.path().is_dir())
+            .map(|entry| entry.file_name().to_string_lossy().into_owned())
+            .map(|name| format!("{}/{name}/", in_project.display()))
+            .collect();
+        if folders.is_empty() {
+            folders.push(format!("{}/", in_project.display()));
+        }
+        for folder in folders {
             assert!(
                 told.contains(&folder),
                 "ARCHITECTURE.md does not mention {folder}"
@@ -59,37 +77,32 @@ fn every_folder_of_the_sources_is_told_of() {
     }
 }
 
-/// Each folder uses only those before it.
+/// Each folder uses only those before it in its crate; between crates, the compiler sees to that.
 #[test]
 fn no_folder_points_back() {
-    let order = [
-        "model",
-        "theory",
-        "experiment",
-        "series",
-        "files",
-        "dem",
-        "code",
-        "runs",
-        "study",
-        "paper",
-        "output",
-        "cli",
-    ];
-    for (position, folder) in order.iter().enumerate() {
-        for file in rust_files(
-            &Path::new(env!("CARGO_MANIFEST_DIR"))
-                .join("src")
-                .join(folder),
-        ) {
-            let text = std::fs::read_to_string(&file).expect("a source file");
-            for later in &order[position + 1..] {
-                let forbidden = format!("crate::{later}");
-                assert!(
-                    !text.contains(&forbidden),
-                    "{} uses {forbidden}",
-                    file.display()
-                );
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    for (sources, order) in [
+        (
+            "crates/theory/src",
+            &["model", "theory", "experiment"] as &[&str],
+        ),
+        ("crates/dem/src", &["model", "series", "dem"]),
+        (
+            "src",
+            &["files", "code", "runs", "study", "paper", "output", "cli"],
+        ),
+    ] {
+        for (position, folder) in order.iter().enumerate() {
+            for file in rust_files(&root.join(sources).join(folder)) {
+                let text = std::fs::read_to_string(&file).expect("a source file");
+                for later in &order[position + 1..] {
+                    let forbidden = format!("crate::{later}");
+                    assert!(
+                        !text.contains(&forbidden),
+                        "{} uses {forbidden}",
+                        file.display()
+                    );
+                }
             }
         }
     }
@@ -109,6 +122,9 @@ const WAYS_TO_OPEN: [&str; 9] = [
     "from_path(",
 ];
 
+/// Sources that no program contains.
+const FOR_BUILD_SCRIPTS: &str = "crates/digest/src";
+
 /// The lines of `text` outside comments and tests in which a file is opened.
 fn lines_that_open(text: &str) -> Vec<&str> {
     let code = text.split("#[cfg(test)]").next().unwrap_or(text);
@@ -122,12 +138,14 @@ fn lines_that_open(text: &str) -> Vec<&str> {
 
 #[test]
 fn files_are_opened_in_one_room_alone() {
-    let sources = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    let files = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/files");
     let mut found = 0;
-    for file in rust_files(&sources) {
+    let is_of_programs = |folder: &PathBuf| !folder.ends_with(FOR_BUILD_SCRIPTS);
+    let folders = sources().into_iter().filter(is_of_programs);
+    for file in folders.flat_map(|folder| rust_files(&folder)) {
         let text = std::fs::read_to_string(&file).expect("a source file");
         let mut lines = lines_that_open(&text);
-        if file.starts_with(sources.join("files")) {
+        if file.starts_with(&files) {
             found += lines.len();
             continue;
         }
@@ -148,15 +166,17 @@ fn a_file_that_is_opened_elsewhere_would_be_noticed() {
 /// Files of one room may use one another, but not in a circle.
 #[test]
 fn no_files_of_a_room_import_one_another_in_a_circle() {
-    let sources = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
-    let files: BTreeMap<String, String> = rust_files(&sources)
-        .into_iter()
-        .map(|file| {
-            let module = module_of(file.strip_prefix(&sources).expect("a file below src"));
-            (
-                module,
-                std::fs::read_to_string(&file).expect("a source file"),
-            )
+    let text_of = |file: &PathBuf| std::fs::read_to_string(file).expect("a source file");
+    let files: BTreeMap<String, String> = sources()
+        .iter()
+        .flat_map(|sources| {
+            rust_files(sources)
+                .into_iter()
+                .map(move |file| (sources, file))
+        })
+        .map(|(sources, file)| {
+            let module = module_of(file.strip_prefix(sources).expect("a file below src"));
+            (module, text_of(&file))
         })
         .filter(|(module, _)| module.contains("::"))
         .collect();
@@ -210,7 +230,7 @@ fn imported<'a>(module: &str, text: &str, files: &'a BTreeMap<String, String>) -
     others.filter(|other| names(other)).collect()
 }
 
-fn rust_files(folder: &Path) -> Vec<std::path::PathBuf> {
+fn rust_files(folder: &Path) -> Vec<PathBuf> {
     let entries = std::fs::read_dir(folder)
         .expect("a folder of sources")
         .flatten();

@@ -14,7 +14,7 @@ const FLAGS: &str = "--mu 0.3 --stiffness 1e2 --history-update rotated";
 fn case(bench: &Bench, options: &str) -> Case {
     let line = format!("simulate --code native {options} --out run");
     standard_output(&mut bench.tristack(&line));
-    let case = Case::read(&bench.path("run/case.json")).expect("a case");
+    let case = tristack::files::read_case(&bench.path("run/case.json")).expect("a case");
     fs::remove_dir_all(bench.path("run")).expect("the run is removed");
     case
 }

@@ -16,7 +16,7 @@ const RUN: &str = "simulate --code native --mu 0.3 --stiffness 1e2";
 fn run(bench: &Bench, more: &str) -> Case {
     let line = format!("{RUN} --out run {more}");
     bench.tristack(&line).assert().success();
-    Case::read(&bench.path("run/case.json")).expect("the case of the run")
+    tristack::files::read_case(&bench.path("run/case.json")).expect("the case of the run")
 }
 
 /// Force on every body from all contacts.

@@ -14,7 +14,6 @@ use std::os::unix::fs::{MetadataExt, PermissionsExt, chown, symlink};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 use tristack::code::Code;
-use tristack::model::Case;
 
 const SWEEP: &str = "sweep --code native --mu 0.3 --stiffness 100 --format csv";
 const RUN: &str = "simulate --code native --mu 0.3 --stiffness 100";
@@ -782,6 +781,6 @@ fn the_evidence_of_a_failed_run_is_not_shortened_elsewhere() {
 fn the_case_of_a_run_directory_is_still_a_case() {
     let bench = Bench::without_codes();
     assert_eq!(outcome(&bench, &format!("{RUN} --out run")).0, Some(0));
-    let case = Case::read(&bench.path("run/case.json")).expect("a case");
+    let case = tristack::files::read_case(&bench.path("run/case.json")).expect("a case");
     assert_eq!(case.stack.floor_friction, 0.3);
 }

@@ -330,7 +330,7 @@ fn side_walls_lead_to_the_same_stack_and_yield_force_in_every_code_that_offers_t
                  --push {push} --out run"
             );
             bench.tristack(&line).assert().code(0);
-            let case = Case::read(&bench.path("run/case.json")).expect("a case");
+            let case = tristack::files::read_case(&bench.path("run/case.json")).expect("a case");
             let mut halved = case;
             halved.protocol.time_step *= 0.5;
             let series = fs::File::open(bench.path("run/series.csv")).expect("a series");

@@ -49,10 +49,10 @@ fn every_licence_is_one_that_is_allowed() {
 }
 
 #[test]
-fn everything_but_this_package_comes_from_the_registry() {
+fn everything_but_the_crates_of_this_project_comes_from_the_registry() {
     for package in packages() {
         let (name, source) = (text(&package, "name"), text(&package, "source"));
-        let own = name == env!("CARGO_PKG_NAME");
+        let own = Path::new(text(&package, "manifest_path")).starts_with(in_project(""));
         assert!(own == source.is_empty(), "{name}: {source}");
         assert!(own || source.starts_with("registry+"), "{name}: {source}");
     }
@@ -74,11 +74,43 @@ fn nothing_needs_a_newer_compiler_than_is_promised() {
     }
 }
 
+/// The manifests of the root package and of every crate.
+fn manifests() -> Vec<toml::Table> {
+    let crates = std::fs::read_dir(in_project("crates")).expect("crates");
+    let crates = crates
+        .flatten()
+        .map(|entry| entry.path().join("Cargo.toml"));
+    let all = std::iter::once(in_project("Cargo.toml")).chain(crates);
+    let read = |path| std::fs::read_to_string(path).expect("a manifest");
+    all.map(|path| read(path).parse().expect("TOML")).collect()
+}
+
 #[test]
 fn no_code_of_this_project_is_unsafe() {
-    let manifest = std::fs::read_to_string(in_project("Cargo.toml")).expect("a manifest");
-    let manifest: toml::Table = manifest.parse().expect("TOML");
-    let lint = manifest["lints"]["rust"]["unsafe_code"].as_str();
+    let all = manifests();
+    let lint = all[0]["workspace"]["lints"]["rust"]["unsafe_code"].as_str();
     // The compiler then refuses it, also behind an `allow`.
     assert_eq!(lint, Some("forbid"));
+    for manifest in all {
+        let (name, lints) = (&manifest["package"]["name"], &manifest["lints"]);
+        assert_eq!(lints["workspace"].as_bool(), Some(true), "{name}");
+    }
+}
+
+/// The crates are released together, under one number.
+#[test]
+fn all_crates_have_the_version_of_the_workspace() {
+    let all = manifests();
+    let workspace = &all[0]["workspace"];
+    let version = &workspace["package"]["version"];
+    for (name, dependency) in workspace["dependencies"].as_table().expect("dependencies") {
+        if dependency.get("path").is_some() {
+            assert_eq!(&dependency["version"], version, "{name}");
+        }
+    }
+    for manifest in all {
+        let package = &manifest["package"];
+        let own = package["version"].get("workspace");
+        assert_eq!(own.and_then(toml::Value::as_bool), Some(true), "{package}");
+    }
 }

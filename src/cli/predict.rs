@@ -7,7 +7,7 @@ use crate::experiment::{
 };
 use crate::model::Power;
 use crate::output::{forecast_text, forecasts};
-use clap::{ArgGroup, Args};
+use clap::{ArgGroup, Args, ValueEnum};
 
 /// Predict ε, regime and yield force of real cylinders, in SI units
 #[derive(Debug, Args)]
@@ -63,13 +63,36 @@ pub(super) struct Arguments {
     )]
     poisson: f64,
     /// Estimate of the contact stiffness to conclude from
-    #[arg(long, value_enum, default_value_t = ContactEstimate::PaperScaling)]
-    contact: ContactEstimate,
+    #[arg(long, value_enum, default_value_t = Estimate::PaperScaling)]
+    contact: Estimate,
     #[command(flatten)]
     stack: StackOptions,
     /// Format of the result
     #[arg(long, value_enum, default_value_t = Format::Table)]
     format: Format,
+}
+
+/// A [`ContactEstimate`] on the command line.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Estimate {
+    /// The paper's ε = L ρ g/E with L = r, that is k_n = π E l. An order of magnitude, and on the
+    /// stiff side of it
+    PaperScaling,
+    /// k_n = (π/4) E* l, the straight line through Hertz's law (V. L. Popov, *Contact Mechanics and Friction*,
+    /// section 5.6): what DEM codes use in two dimensions. Independent of radius and load
+    LineContact,
+    /// The secant of Hertz's law, logarithm included, at the overlap at which the stack yields
+    Hertz,
+}
+
+impl From<Estimate> for ContactEstimate {
+    fn from(estimate: Estimate) -> Self {
+        match estimate {
+            Estimate::PaperScaling => Self::PaperScaling,
+            Estimate::LineContact => Self::LineContact,
+            Estimate::Hertz => Self::Hertz,
+        }
+    }
 }
 
 /// Prints the forecast.
@@ -92,7 +115,7 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
         mu_d: arguments.stack.mu_d,
         kappa: arguments.stack.kappa(Power::Linear),
     };
-    let found = [Forecast::new(&experiment, arguments.contact).map_err(as_flag)?];
+    let found = [Forecast::new(&experiment, arguments.contact.into()).map_err(as_flag)?];
     let people = || forecast_text(&found[0]);
     let tables = [forecasts(&found)];
     Ok(arguments.format.print(&tables, command, people))

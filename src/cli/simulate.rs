@@ -10,7 +10,7 @@ use super::pictures::Pictures;
 use super::progress::Reporter;
 use super::{CliError, ExitStatus, INTERRUPT, complain, given, print, tell};
 use crate::code::{Code, Failure, HOME, InstalledCode, Run, RunContext, keep_evidence};
-use crate::files::{FileError, Layout, remove_older, write_atomically};
+use crate::files::{FileError, Layout, read_case_with, remove_older, write_atomically};
 use crate::model::{
     Case, ContactConvention, InvalidValue, PartialCase, PartialProtocol, Protocol, Shortcuts,
     SideWalls, Stack, shown,
@@ -213,7 +213,7 @@ fn execute(
 fn case(arguments: &Arguments) -> Result<Case, CliError> {
     if let Some(path) = &arguments.case {
         let code = arguments.code();
-        let case = Case::read_with(path, |written| completed(written, code))?;
+        let case = read_case_with(path, |written| completed(written, code))?;
         let protocol = &case.protocol;
         code.check_convention_of(&case)?;
         code.check_preparation(&case.stack, &protocol.preparation)?;

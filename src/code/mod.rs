@@ -9,6 +9,7 @@ mod columns;
 mod convention;
 mod covered;
 mod definition;
+mod difference;
 mod external;
 mod failure;
 mod folder;

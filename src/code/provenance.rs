@@ -44,9 +44,20 @@ impl Identity {
         &NATIVE
     }
 
+    /// What of this decides numbers: of the native code not the release, whose sources are hashed like a deck, but the
+    /// arithmetic that is named after it.
+    pub(crate) fn deciding(&self) -> Self {
+        let mut deciding = self.clone();
+        if self.code == Code::NATIVE.as_str() {
+            let arithmetic = self.version.split_once(' ').map_or("", |(_, rest)| rest);
+            deciding.version = arithmetic.to_owned();
+        }
+        deciding
+    }
+
     /// Content address of the run of `case` by this program with the deck that has `deck_hash`.
     pub fn address(&self, case: &Case, deck_hash: &str) -> String {
-        let parts = serde_json::json!([case.content_hash(), self, deck_hash]);
+        let parts = serde_json::json!([case.content_hash(), self.deciding(), deck_hash]);
         sha256_hex(parts.to_string().as_bytes())
     }
 }
@@ -129,4 +140,25 @@ pub struct Run {
     pub series: Series,
     /// Its origin.
     pub provenance: Provenance,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_release_of_the_same_sources_has_the_same_runs_but_not_another_arithmetic() {
+        let of = |version: &str| Identity {
+            version: version.to_owned(),
+            ..Identity::native().clone()
+        };
+        let deciding = |version: &str| of(version).deciding();
+        assert_eq!(deciding("0.1.0"), deciding("9.8.7"));
+        assert_ne!(deciding("0.1.0"), deciding("0.1.0 double-double"));
+        let external = |version: &str| Identity {
+            code: "yade".to_owned(),
+            ..of(version)
+        };
+        assert_ne!(external("1").deciding(), external("2").deciding());
+    }
 }

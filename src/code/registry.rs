@@ -1,6 +1,7 @@
 //! The codes: those whose folders are part of this program, and those whose folders were given by path.
 
 use super::convention::{Declaration, Settled};
+use super::difference::difference;
 use super::folder::{BUILT_IN, Folder};
 use super::manifest::{Definition, Integration, Mark, RefusedOutside, RefusedValues, TaskKind};
 use super::manifest_error::{ManifestError, refused};
@@ -252,7 +253,7 @@ impl Code {
             return Err(refused("convention.restitution", restitution, accepted));
         }
         let own = ContactConvention { restitution, ..own };
-        asked.difference(&own).map_or(Ok(()), |(key, value, own)| {
+        difference(asked, &own).map_or(Ok(()), |(key, value, own)| {
             let key = format!("convention.{key}");
             Err(refused(&key, value, format!("{own} for {self}")))
         })
@@ -330,7 +331,7 @@ impl Code {
     /// Hash of the files for a task of this kind, or of the sources of the native code.
     pub fn files_hash(self, kind: TaskKind) -> String {
         match self {
-            Self::NATIVE => crate::dem::SOURCE_DIGEST.clone(),
+            Self::NATIVE => crate::dem::SOURCE_DIGEST.to_owned(),
             _ => self.definition().files_hash(kind),
         }
     }

@@ -7,19 +7,20 @@ use std::path::Path;
 /// Largest case file that is read, in bytes: a thousand times one with every key.
 const LARGEST: u64 = 1 << 20;
 
-impl Case {
-    /// Reads and validates a case from a `.toml` or `.json` file.
-    pub fn read(path: &Path) -> Result<Self, CaseError> {
-        Self::parse(&case_content(path)?, path)
-    }
+/// Reads and validates a case from a `.toml` or `.json` file.
+///
+/// # Errors
+/// If the file cannot be read or is no valid case.
+pub fn read_case(path: &Path) -> Result<Case, CaseError> {
+    Case::parse(&case_content(path)?, path)
+}
 
-    /// The same of a file that may be partial: `complete` fills in what is left out.
-    pub fn read_with(
-        path: &Path,
-        complete: impl FnOnce(&PartialCase) -> Result<Self, InvalidValue>,
-    ) -> Result<Self, CaseError> {
-        Self::parse_with(&case_content(path)?, path, complete)
-    }
+/// Reads and validates a case from a file that may be partial: `complete` fills in what is left out.
+pub(crate) fn read_case_with(
+    path: &Path,
+    complete: impl FnOnce(&PartialCase) -> Result<Case, InvalidValue>,
+) -> Result<Case, CaseError> {
+    Case::parse_with(&case_content(path)?, path, complete)
 }
 
 /// The content of a case file.

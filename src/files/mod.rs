@@ -8,7 +8,8 @@ mod error;
 mod read;
 mod results;
 
-pub(crate) use case::case_content;
+pub use case::read_case;
+pub(crate) use case::{case_content, read_case_with};
 pub(crate) use checksums::{CHECKSUMS, check, checksums, read_sealed, write_sealed};
 pub use checksums::{seal, unseal};
 pub(crate) use draft::{

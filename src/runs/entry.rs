@@ -1,7 +1,8 @@
 //! Entries: runs on disk, each a directory that is written completely before it is renamed into place.
 
-use super::summary::{ESTIMATOR, RunSummary};
+use super::summary::RunSummary;
 use crate::code::{Provenance, Run};
+use crate::dem::SOURCE_DIGEST;
 use crate::files::{
     CHECKSUMS, FileError, Links, check, checksums, create_parent, kind, locked_directory,
     parse_json, read_bounded, read_sealed, seal, sync_directory, write_sealed, write_synced,
@@ -115,9 +116,9 @@ struct KeptSummary {
     summary: RunSummary,
 }
 
-/// The file with the summary. It belongs to the sources that made it.
+/// The file with the summary. It belongs to the sources that read it off the series.
 fn summary_file() -> String {
-    format!("{SUMMARY}{}{ENDING}", &ESTIMATOR[..SUMMARY_DIGEST])
+    format!("{SUMMARY}{}{ENDING}", &SOURCE_DIGEST[..SUMMARY_DIGEST])
 }
 
 fn summary_json(summary: &RunSummary, checksums: &[u8]) -> Vec<u8> {

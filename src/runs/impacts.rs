@@ -2,22 +2,13 @@
 
 use super::{Kind, Progress, Reading, Recorded, RecordedError, ScheduledTask, Store};
 use crate::code::{Code, Failure, Finished, Identity, InstalledCode, RunContext};
+use crate::dem::SOURCE_DIGEST;
 use crate::files::{FileError, parse_json};
 use crate::model::{ContactTest, ImpactTarget, sha256_hex};
 use crate::series::Rebound;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::path::Path;
-use std::sync::LazyLock;
-
-/// Digest of the sources that read an impact off its motion.
-static READER: LazyLock<String> = LazyLock::new(|| {
-    let sources = [
-        include_str!("../series/rebound.rs"),
-        include_str!("impacts.rs"),
-    ];
-    sha256_hex(sources.concat().as_bytes())
-});
 
 /// An impact as a task for a code.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -108,7 +99,7 @@ impl ScheduledTask for ImpactRun {
 
     fn address(&self, code: &dyn InstalledCode) -> String {
         let deck_hash = code.name().deck_hash(&self.test);
-        let parts = serde_json::json!([code.identity(), deck_hash, self, *READER]);
+        let parts = serde_json::json!([code.identity().deciding(), deck_hash, self, SOURCE_DIGEST]);
         sha256_hex(parts.to_string().as_bytes())
     }
 

@@ -33,7 +33,7 @@ pub struct Answer {
 pub(crate) fn probe_address(code: &dyn InstalledCode) -> String {
     let decks = [TaskKind::Motion, TaskKind::SpheresMotion];
     let decks = decks.map(|kind| code.name().files_hash(kind));
-    let parts = serde_json::json!([code.identity(), decks]);
+    let parts = serde_json::json!([code.identity().deciding(), decks]);
     sha256_hex(parts.to_string().as_bytes())
 }
 

@@ -3,33 +3,9 @@
 use super::{Reading, Recorded, RecordedError, Store};
 use crate::code::{Code, Identity, InstalledCode, Provenance, Run};
 use crate::files::FileError;
-use crate::model::{Case, sha256_hex};
-use crate::series::{Mechanics, YieldEstimates};
+use crate::model::Case;
+use crate::series::{Mechanics, Summary, YieldEstimates};
 use serde::{Deserialize, Serialize};
-use std::sync::LazyLock;
-
-/// Digest of the sources that read a summary off a series.
-pub(super) static ESTIMATOR: LazyLock<String> = LazyLock::new(|| {
-    let sources = [
-        include_str!("../model/law/contact_law.rs"),
-        include_str!("../model/law/damping.rs"),
-        include_str!("../model/law/power.rs"),
-        include_str!("../model/law/tangential.rs"),
-        include_str!("../series/differences.rs"),
-        include_str!("../series/digits.rs"),
-        include_str!("../series/drop.rs"),
-        include_str!("../series/estimate.rs"),
-        include_str!("../series/mechanics.rs"),
-        include_str!("../series/oscillator.rs"),
-        include_str!("../series/pair_contact.rs"),
-        include_str!("../series/polynomial.rs"),
-        include_str!("../series/reported.rs"),
-        include_str!("../series/sample.rs"),
-        include_str!("../series/samples.rs"),
-        include_str!("summary.rs"),
-    ];
-    sha256_hex(sources.concat().as_bytes())
-});
 
 /// The yield force of a run by both estimators, and its provenance: a hundredth of its series in size.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -60,23 +36,13 @@ pub struct RunSummary {
 impl RunSummary {
     /// The summary of `run`.
     pub fn new(run: Run) -> Self {
-        let stack = &run.case.stack;
-        let law = run.case.convention.law(stack.stiffness_ratio);
-        let samples = run.series.samples();
-        let (first, last) = (samples.first(), samples.last());
+        let read = Summary::read(&run.series, &run.case);
         Self {
-            estimates: YieldEstimates::read(&run.series, &run.case),
-            last_force: last.map_or(0.0, |sample| sample.wall_force * stack.stiffness),
-            mechanics: Some(Mechanics::read(&run.series, &run.case)),
-            start: first
-                .map(|sample| {
-                    let contact = sample.first(stack);
-                    [contact.outwards, sample.top(stack)[1], contact.height]
-                })
-                .filter(|start| !start.iter().any(|place| place.is_nan())),
-            contact_force: first
-                .map(|sample| law.force(sample.bottom_overlap(stack)) * stack.stiffness)
-                .filter(|force| !force.is_nan()),
+            estimates: read.estimates,
+            last_force: read.last_force,
+            mechanics: Some(read.mechanics),
+            start: read.start,
+            contact_force: read.contact_force,
             absent: run
                 .series
                 .absent()

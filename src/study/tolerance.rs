@@ -4,7 +4,7 @@
 pub(crate) const ROUNDING: f64 = 0.288_675_134_594_812_9;
 
 /// Smallest tolerance, relative to F + 3: the accuracy that is guaranteed of the limit itself for arbitrary
-/// torque arms (tests/golden_theory.rs).
+/// torque arms (crates/theory/tests/theory/golden.rs).
 pub const MIN_TOLERANCE: f64 = 1e-7;
 
 /// Largest tolerance, relative to F + 3: agreement between independent codes is worth the name at 1e-5.

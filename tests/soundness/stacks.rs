@@ -9,7 +9,7 @@ use tristack::theory::{Predictions, quasistatic_limit};
 
 const NUMBERS: usize = 10;
 
-/// Of the domain over which the theories are tested (tests/theory_domain.rs).
+/// Of the domain over which the theories are tested (crates/theory/tests/theory/domain.rs).
 const SMALLEST_RATIO: f64 = 1e-3;
 
 /// Ten numbers: friction, cylinder friction, stiffness, stiffness ratio, wall speed, time step, four arms.

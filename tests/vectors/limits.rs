@@ -13,7 +13,7 @@ use tristack::model::{Arms, ContactConvention, HistoryUpdate, Stack};
 use tristack::theory::{Event, Limit, LoadingOutcome, quasistatic_limit};
 
 const SCHEMA: &str = "tristack/limit-vectors/2";
-/// The program promises no more of any number (`tests/closed_form.rs`); the last digits may differ between machines.
+/// The program promises no more of any number (`crates/theory/tests/theory/closed_form.rs`); the last digits may differ between machines.
 const MOST_DIGITS: u32 = 12;
 /// A vector with fewer is no test.
 const LEAST_DIGITS: u32 = 8;

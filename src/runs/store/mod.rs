@@ -405,5 +405,5 @@ fn name(kind: Kind, address: &str) -> PathBuf {
 
 /// Whether a run with this `provenance` was made by the program with `identity` from the inputs with `deck_hash`.
 fn is_of(provenance: &Provenance, identity: &Identity, deck_hash: &str) -> bool {
-    provenance.identity == *identity && provenance.deck_hash == deck_hash
+    provenance.identity.deciding() == identity.deciding() && provenance.deck_hash == deck_hash
 }

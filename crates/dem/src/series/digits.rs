@@ -1,0 +1,174 @@
+//! The digits with which a code has printed a series, read off its numbers.
+
+use super::column::Column;
+use super::differences::COORDINATE;
+use super::sample::{ANGLE, FORCE, LENGTH, Sample};
+use serde::{Deserialize, Serialize};
+
+/// Digits with which the rounding of numbers is far below every tolerance for micro-tests and trajectories.
+pub const ENOUGH_DIGITS: u32 = 13;
+/// Digits that give a number of double precision back exactly.
+const EXACT: u32 = 17;
+/// Rows after the peak whose friction is read.
+const ROWS_AFTER_PEAK: usize = 4;
+/// The forces, on which the yield force depends.
+fn forces() -> impl Iterator<Item = &'static Column<Sample>> {
+    Sample::EVERY.iter().filter(|column| column.unit == FORCE)
+}
+
+fn coordinates() -> impl Iterator<Item = &'static Column<Sample>> {
+    let moved = [LENGTH, ANGLE];
+    let columns = Sample::EVERY.iter();
+    columns.filter(move |column| moved.contains(&column.unit))
+}
+
+/// Largest rounding of the numbers of a series, in its own units.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Rounding {
+    /// Of a coordinate.
+    pub(super) coordinate: f64,
+    /// Of a force.
+    pub(super) force: f64,
+}
+
+impl Rounding {
+    /// The rounding in `samples`: that of double precision, or that of printing.
+    pub(super) fn read(samples: &[Sample]) -> Self {
+        let half_unit = |column: &'static Column<Sample>| {
+            let printed = precision(samples.iter().map(column.value));
+            printed.map_or(0.0, |printed| printed.half_unit)
+        };
+        Self {
+            coordinate: coordinates().map(half_unit).fold(COORDINATE, f64::max),
+            force: forces().map(half_unit).fold(0.0, f64::max),
+        }
+    }
+}
+
+/// The precision of a series that was printed with fewer digits than its numbers have.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct PrintedDigits {
+    /// Significant digits of the largest numbers, in the coarsest of the columns that decide.
+    pub digits: u32,
+    /// The same in the finest of these columns; 17 if one has all digits.
+    pub finest: u32,
+    /// Half a unit of the last place of these numbers, the largest of all columns that decide, in m g.
+    pub half_unit: f64,
+}
+
+impl PrintedDigits {
+    const IN_FULL: Self = Self {
+        digits: EXACT,
+        finest: EXACT,
+        half_unit: 0.0,
+    };
+
+    /// The digits of `samples`, forces in units of k_n r, which is `stiffness` m g; `None` if every column that
+    /// decides has all of them.
+    ///
+    /// A column is printed with as many digits as its longest number: others may end in zeros, which are cut off.
+    /// Fixed decimals are the same as significant digits for the largest numbers of a column, and it is their last
+    /// place that counts.
+    pub(super) fn read(samples: &[Sample], stiffness: f64) -> Option<Self> {
+        let force = |index: &usize| samples[*index].wall_force;
+        let peak = (0..samples.len()).max_by(|i, j| force(i).total_cmp(&force(j)))?;
+        let end = samples.len().min(peak + ROWS_AFTER_PEAK + 1);
+        let columns =
+            forces().filter_map(|column| precision(samples[..end].iter().map(column.value)));
+        let coarsest = columns.reduce(|left, right| Self {
+            digits: left.digits.min(right.digits),
+            finest: left.finest.max(right.finest),
+            half_unit: left.half_unit.max(right.half_unit),
+        })?;
+        (coarsest.digits < EXACT).then_some(Self {
+            half_unit: coarsest.half_unit * stiffness,
+            ..coarsest
+        })
+    }
+}
+
+/// Significant digits of the longest of `values`, up to those that give every number back.
+pub fn most_digits(values: impl Iterator<Item = f64>) -> u32 {
+    let mut most = 0;
+    for value in values.filter(|value| *value != 0.0) {
+        most = most.max(decimal(value).0);
+        if most >= EXACT {
+            break;
+        }
+    }
+    most
+}
+
+/// The precision of a column; `None` if it holds nothing but zeros.
+fn precision(values: impl Iterator<Item = f64>) -> Option<PrintedDigits> {
+    let (mut digits, mut highest) = (0, i32::MIN);
+    // What is not reported is not a number.
+    for value in values.filter(|value| *value != 0.0 && !value.is_nan()) {
+        let (own, exponent) = decimal(value);
+        if own >= EXACT {
+            return Some(PrintedDigits::IN_FULL);
+        }
+        digits = digits.max(own);
+        highest = highest.max(exponent);
+    }
+    let last_place = highest.checked_sub(digits as i32 - 1)?;
+    (digits > 0).then(|| PrintedDigits {
+        digits,
+        finest: digits,
+        half_unit: 0.5 * libm::exp10(f64::from(last_place)),
+    })
+}
+
+/// Number of significant digits of the shortest decimal that gives `value` back, and the exponent of its first.
+fn decimal(value: f64) -> (u32, i32) {
+    let text = format!("{value:e}");
+    let (mantissa, exponent) = text.split_once('e').unwrap_or((&text, "0"));
+    let digits = mantissa.chars().filter(char::is_ascii_digit).count();
+    (digits as u32, exponent.parse().unwrap_or(0))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn printed(print: impl Fn(f64) -> String) -> Option<PrintedDigits> {
+        let values = (1..400).map(|row| f64::from(row) * 0.001 * std::f64::consts::E);
+        precision(values.map(|value| print(value).parse().expect("a number")))
+    }
+
+    #[test]
+    fn numbers_in_full_have_no_precision_of_their_own() {
+        for in_full in [
+            printed(|value| format!("{value:.16e}")),
+            printed(|value| format!("{value}")),
+        ] {
+            assert_eq!(in_full, Some(PrintedDigits::IN_FULL));
+        }
+        assert_eq!(precision([0.0, 0.0].into_iter()), None);
+    }
+
+    #[test]
+    fn significant_digits_are_counted_though_zeros_at_the_end_are_cut() {
+        // The largest number is 1.08...: its sixth digit is that of 1e-5.
+        for print in [
+            |value| format!("{value:.5e}"),
+            |value| {
+                let text = format!("{value:.5e}");
+                let (mantissa, exponent) = text.split_once('e').expect("an exponent");
+                format!("{}e{exponent}", mantissa.trim_end_matches('0'))
+            },
+        ] {
+            let printed = printed(print).expect("fewer digits");
+            assert_eq!(printed.digits, 6);
+            assert!((printed.half_unit / 0.5e-5 - 1.0).abs() < 1e-12);
+        }
+    }
+
+    #[test]
+    fn fixed_decimals_have_the_digits_of_the_largest_number() {
+        let printed = printed(|value| format!("{value:.6}")).expect("fewer digits");
+        assert_eq!(printed.digits, 7);
+        assert!((printed.half_unit / 0.5e-6 - 1.0).abs() < 1e-12);
+    }
+}

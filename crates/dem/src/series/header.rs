@@ -1,0 +1,135 @@
+//! The header of a result: columns in any order and under other names, with factors.
+
+use super::SeriesError;
+use super::column::Column;
+use crate::model::readable;
+use std::collections::BTreeMap;
+use std::io::Read;
+
+/// A column of a result that is named otherwise, or reported in another unit or direction.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ColumnSource {
+    /// Its name in the result.
+    pub from: String,
+    /// The number by which its values are multiplied.
+    pub factor: f64,
+}
+
+/// The columns of a result that are not what their names say, by the declared names.
+pub type ColumnSources = BTreeMap<String, ColumnSource>;
+
+/// Whether a word of the header stands for a name.
+pub(crate) type SameName = fn(&str, &str) -> bool;
+
+/// The places of the columns of `R` in a file.
+pub struct Header<R: 'static> {
+    /// Column, place, factor.
+    present: Vec<(&'static Column<R>, usize, f64)>,
+    /// The columns that the file leaves out.
+    absent: Vec<&'static Column<R>>,
+}
+
+impl<R: Default> Header<R> {
+    /// Finds the `columns` among the `words` of a header; further words are ignored.
+    ///
+    /// # Errors
+    /// If a column is missing that must be there, or stands there twice.
+    pub fn find(
+        columns: &'static [Column<R>],
+        words: &[&str],
+        sources: &ColumnSources,
+        is_same: SameName,
+    ) -> Result<Self, SeriesError> {
+        let mut header = Self {
+            present: Vec::new(),
+            absent: Vec::new(),
+        };
+        for column in columns {
+            let source = sources.get(column.name);
+            let name = source.map_or(column.name, |source| &source.from);
+            match place(words, name, is_same) {
+                Ok(Some(place)) => {
+                    let factor = source.map_or(1.0, |source| source.factor);
+                    header.present.push((column, place, factor));
+                }
+                // A name that the manifest gives is a promise.
+                Ok(None) if column.is_optional && source.is_none() => header.absent.push(column),
+                Ok(None) => return Err(refused(words, format!("`{name}` is missing"))),
+                Err(()) => return Err(refused(words, format!("`{name}` is there twice"))),
+            }
+        }
+        Ok(header)
+    }
+
+    /// The row whose `field`s stand at these places.
+    ///
+    /// # Errors
+    /// The message about a field that is missing or no number.
+    pub fn row<'a>(&self, field: impl Fn(usize) -> Option<&'a str>) -> Result<R, String> {
+        let mut row = R::default();
+        for column in &self.absent {
+            (column.set)(&mut row, f64::NAN);
+        }
+        for (column, place, factor) in &self.present {
+            let name = column.name;
+            let text = field(*place).ok_or_else(|| format!("`{name}` is missing"))?;
+            let number: Option<f64> = text.trim().parse().ok();
+            if !number.is_some_and(|number| (column.set)(&mut row, factor * number)) {
+                return Err(format!("`{name}` is `{text}`, which is no number for it"));
+            }
+        }
+        Ok(row)
+    }
+
+    /// Names of the columns that the file leaves out.
+    pub fn absent(self) -> Vec<&'static str> {
+        self.absent.iter().map(|column| column.name).collect()
+    }
+}
+
+/// The only place of `name` among `words`: itself, or else what stands for it. An error if there are two.
+fn place(words: &[&str], name: &str, is_same: SameName) -> Result<Option<usize>, ()> {
+    for same in [|word: &str, name: &str| word == name, is_same] {
+        let mut places = (0..words.len()).filter(|&place| same(words[place], name));
+        match (places.next(), places.next()) {
+            (found @ Some(_), None) => return Ok(found),
+            (None, _) => {}
+            (Some(_), Some(_)) => return Err(()),
+        }
+    }
+    Ok(None)
+}
+
+fn refused(words: &[&str], problem: String) -> SeriesError {
+    SeriesError::Columns {
+        found: readable(&words.join(",")),
+        problem: readable(&problem),
+    }
+}
+
+/// The rows of a CSV, at most `limit` of them, and the names of the columns that it leaves out.
+pub(super) fn csv_rows<R: Default>(
+    input: impl Read,
+    columns: &'static [Column<R>],
+    sources: &ColumnSources,
+    limit: usize,
+) -> Result<(Vec<R>, Vec<&'static str>), SeriesError> {
+    let mut reader = csv::ReaderBuilder::new()
+        .trim(csv::Trim::Headers)
+        .from_reader(input);
+    let words = reader.headers();
+    let words = words.map_err(|error| SeriesError::garbled(0, error))?;
+    let words: Vec<&str> = words.iter().collect();
+    let header = Header::find(columns, &words, sources, |word, name| word == name)?;
+    let mut record = csv::StringRecord::new();
+    let mut rows = Vec::new();
+    while rows.len() < limit {
+        let garbled = |message: String| SeriesError::garbled(rows.len() + 1, message);
+        match reader.read_record(&mut record) {
+            Ok(true) => rows.push(header.row(|place| record.get(place)).map_err(garbled)?),
+            Ok(false) => break,
+            Err(error) => return Err(garbled(error.to_string())),
+        }
+    }
+    Ok((rows, header.absent()))
+}

@@ -1,0 +1,106 @@
+//! The theories over everything the command line accepts: no panic, no number that is not one, and the
+//! relations that must hold between them.
+
+use proptest::prelude::*;
+use tristack_theory::model::{Arms, ContactArms, ContactConvention, Stack};
+use tristack_theory::theory::{Predictions, closed_form_limit, followed_limit};
+
+/// Values spread evenly over the logarithm.
+fn logarithmic(lowest: f64, highest: f64) -> impl Strategy<Value = f64> {
+    (lowest.ln()..highest.ln()).prop_map(move |log| log.exp().clamp(lowest, highest))
+}
+
+prop_compose! {
+    fn any_stack()(
+        floor_friction in logarithmic(1e-3, 1e3),
+        cylinder_friction in logarithmic(1e-3, 1e3),
+        stiffness in logarithmic(1.0, 1e8),
+        stiffness_ratio in logarithmic(1e-3, 1e6),
+        bodies in 2u8..=5,
+    ) -> Stack {
+        Stack {
+            cylinder_friction,
+            stiffness_ratio,
+            bodies,
+            ..Stack::paper(floor_friction, stiffness)
+        }
+    }
+}
+
+prop_compose! {
+    fn usual_stack()(
+        floor_friction in 0.1..0.7,
+        stiffness in logarithmic(10.0, 1e6),
+        stiffness_ratio in 0.5..10.0,
+        bodies in 2u8..=5,
+    ) -> Stack {
+        Stack { stiffness_ratio, bodies, ..Stack::paper(floor_friction, stiffness) }
+    }
+}
+
+prop_compose! {
+    fn any_arms()(arms in prop::array::uniform4(-1.0..1.0)) -> Arms {
+        let [pair, floor] = [[arms[0], arms[1]], [arms[2], arms[3]]]
+            .map(|[torque, kinematic]| ContactArms { torque, kinematic });
+        Arms { pair, floor }
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 300, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn every_force_is_a_number_or_has_a_reason(
+        stack in any_stack(),
+        arms in any_arms(),
+    ) {
+        let predictions = Predictions::new(&stack, &ContactConvention::with_arms(arms));
+        let forces = [
+            (predictions.naive.yield_force, predictions.naive.reason.is_some()),
+            (predictions.perturbation.yield_force, predictions.perturbation.reason.is_some()),
+            (predictions.elastic.yield_force, predictions.elastic.reason.is_some()),
+            (predictions.quasistatic.yield_force, predictions.quasistatic.reason.is_some()),
+        ];
+        for (force, reason) in forces {
+            prop_assert_eq!(force.is_none(), reason);
+            prop_assert!(force.is_none_or(|force| force.is_finite() && force >= 0.0));
+        }
+    }
+
+    #[test]
+    fn follower_and_closed_form_are_the_same_for_arms_0(stack in usual_stack()) {
+        let closed = closed_form_limit(&stack);
+        let followed = followed_limit(&stack, &ContactConvention::TURNING);
+        prop_assert_eq!(closed.event, followed.event);
+        match (closed.floor_slip_force, followed.floor_slip_force) {
+            (Some(closed), Some(followed)) => {
+                prop_assert!((closed - followed).abs() < 1e-9 * closed.abs().max(1e-3));
+            }
+            (closed, followed) => prop_assert_eq!(closed, followed),
+        }
+    }
+
+    #[test]
+    fn the_limit_satisfies_its_own_slip_condition(stack in usual_stack()) {
+        let limit = closed_form_limit(&stack);
+        let (Some(force), Some(tangent)) = (limit.floor_slip_force, limit.tangent) else {
+            return Ok(());
+        };
+        // T (F + 1) = mu (F + n + 1): the horizontal force that the stack needs is all that the floor gives.
+        let needed = tangent * (force + 1.0);
+        let given = stack.floor_friction * (force + stack.own_weight());
+        prop_assert!((needed - given).abs() < 1e-9 * given);
+    }
+
+    #[test]
+    fn more_friction_needs_more_force(stack in usual_stack()) {
+        let rougher = Stack { floor_friction: 1.01 * stack.floor_friction, ..stack };
+        let forces = [stack, rougher].map(|stack| closed_form_limit(&stack).floor_slip_force);
+        if let [Some(smooth), Some(rough)] = forces {
+            let tangents = [stack, rougher].map(|stack| closed_form_limit(&stack).tangent);
+            prop_assert!(tangents[1] > tangents[0]);
+            // The force itself may fall again beyond T = 0.7, where the stack softens.
+            prop_assert!(rough > smooth || tangents[0] > Some(0.7), "{smooth} {rough}");
+        }
+    }
+}

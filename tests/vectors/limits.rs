@@ -246,7 +246,7 @@ fn document(vectors: Vec<Vector<Number>>) -> Limits {
         json_schema: "limits.schema.json".to_owned(),
         schema: SCHEMA.to_owned(),
         licence: LICENCE.to_owned(),
-        provenance: Provenance::of(sources_hash(&["src/theory", "src/model"])),
+        provenance: Provenance::of(sources_hash(&["crates/theory/src"])),
         units: units
             .map(|(name, unit)| (name.to_owned(), unit.to_owned()))
             .collect(),

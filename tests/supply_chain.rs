@@ -1,6 +1,7 @@
 //! Origin, licence and compiler version of the dependencies.
 
 use serde_json::Value;
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
@@ -72,6 +73,23 @@ fn nothing_needs_a_newer_compiler_than_is_promised() {
         let fits = needed.is_empty() || version(needed) <= promised;
         assert!(fits, "{} needs {needed}", text(&package, "name"));
     }
+}
+
+/// What another program compiles that uses the theory; docs/install.md says how many crates.
+#[test]
+fn the_theory_alone_brings_few_crates() {
+    let mut command = Command::new(env!("CARGO"));
+    command.args(["tree", "--locked", "--offline", "--prefix", "none"]);
+    command.args(["--edges", "normal,build", "--package", "tristack-theory"]);
+    let output = command.current_dir(in_project("")).output();
+    let output = output.expect("cargo runs").stdout;
+    let lines = String::from_utf8(output).expect("text");
+    let crates = lines.lines().map(|line| line.trim_end_matches(" (*)"));
+    let crates: BTreeSet<&str> = crates.filter(|line| !line.is_empty()).collect();
+    let page = std::fs::read_to_string(in_project("docs/install.md")).expect("a page");
+    let told = format!("is {} crates to compile", crates.len());
+    assert!(page.contains(&told), "{told}: {crates:#?}");
+    assert!(crates.len() <= 32, "{crates:#?}");
 }
 
 /// The manifests of the root package and of every crate.

@@ -44,7 +44,7 @@ def outcomes(directory):
 def all_mutants(areas):
     """All mutants of the files of the areas, by their full names."""
     files = [argument for area in areas for file in area["files"] for argument in ("--file", file)]
-    command = ["cargo", "mutants", "--no-config", "--list", *files]
+    command = ["cargo", "mutants", "--workspace", "--no-config", "--list", *files]
     listed = subprocess.run(command, cwd=ROOT, check=True, capture_output=True, text=True)
     return listed.stdout.splitlines()
 

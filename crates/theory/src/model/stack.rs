@@ -26,7 +26,7 @@ const HIGHEST_FRICTION: f64 = 1e3;
 const HIGHEST_STIFFNESS_RATIO: f64 = 1e6;
 
 /// Three equal cylinders under gravity on a rough floor, or equal spheres: three to five in a ring and one on top. Of a stack
-/// that is read nothing is left out but the number of cylinders; how a case file may spell it says [`super::WrittenStack`].
+/// that is read nothing is left out but the number of cylinders; a case file may spell it in other ways.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Stack {

@@ -1,16 +1,12 @@
 //! Nanoseconds per step and cylinder of pyramids: native, LAMMPS and LIGGGHTS, those that are installed.
 
-use tristack::code::{Code, Interrupt, RunContext};
+use tristack::code::{Interrupt, RunContext};
 use tristack::output::pyramids;
 use tristack::study::cost::{BenchError, PyramidBench};
 
 fn main() -> Result<(), BenchError> {
-    let everyone = PyramidBench::default();
-    let installed = |code: &Code| code.find().is_some();
-    let bench = PyramidBench {
-        codes: everyone.codes.iter().copied().filter(installed).collect(),
-        ..everyone
-    };
+    let mut bench = PyramidBench::default();
+    bench.codes.retain(|code| code.name().find().is_some());
     let directory = tempfile::tempdir().expect("a directory for temporary files");
     let costs = bench.measure(&RunContext::new(directory.path(), &Interrupt::new()))?;
     print!("{}", pyramids(&costs).shown().terminal());

@@ -1,7 +1,7 @@
 //! Native steps of the stack of three, at every width of vectors that this machine has.
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
-use tristack::code::Code;
+use tristack::code::SettledCode;
 use tristack::dem::{LaneWidth, OpenRun, OpenRuns, RunQueue};
 use tristack::model::{Case, ContactConvention, Stack};
 use tristack::series::{Series, SeriesError};
@@ -14,7 +14,8 @@ const CASES: usize = 16;
 fn cases() -> Vec<Case> {
     let frictions = (0..CASES).map(|index| 0.3 + 1e-3 * index as f64);
     let stacks = frictions.map(|friction| Stack::paper(friction, 1e3));
-    let plans = stacks.map(|stack| plan(Code::NATIVE, &stack, ContactConvention::TURNING));
+    let plans =
+        stacks.map(|stack| plan(&SettledCode::native(), &stack, ContactConvention::TURNING));
     plans.map(|plan| plan.cases[MIDDLE_RUN]).collect()
 }
 

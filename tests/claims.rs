@@ -3,9 +3,9 @@
 use insta::assert_snapshot;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
-use tristack::code::{Code, Failure, Interrupt};
+use tristack::code::{Code, Failure, Interrupt, SettledCode};
 use tristack::model::{
-    CRITICAL_FRICTION, ContactConvention, HistoryUpdate, PAPER_STIFFNESS_RATIO, Stack,
+    CRITICAL_FRICTION, ContactConvention, HistoryUpdate, PAPER_STIFFNESS_RATIO, Power, Stack,
 };
 use tristack::paper::claims::{
     ClaimJudgement, ClaimKind, ClaimVerdict, PaperTheory, Register, check_names, judge,
@@ -364,12 +364,14 @@ fn native_reproduction() -> Reproduction {
         interrupt: &interrupt,
     };
     let native = [SelectedCode::find(Code::NATIVE)];
-    let names = [Code::NATIVE];
+    let all = Code::of_power(Power::Linear).into_iter();
+    let declared: Vec<SettledCode> = all.filter_map(Code::as_declared).collect();
+    let names = [SettledCode::native()];
     let stacks = [0.12, 0.25, CRITICAL_FRICTION, 0.3, 0.5]
         .iter()
         .flat_map(|&mu| [1e2, 1e4].map(|stiffness| Stack::paper(mu, stiffness)));
     let plans: Vec<_> = stacks
-        .map(|stack| plan(Code::NATIVE, &stack, ContactConvention::TURNING))
+        .map(|stack| plan(&SettledCode::native(), &stack, ContactConvention::TURNING))
         .collect();
     let campaign = Campaign::new(&native, &settings, &Quiet);
     let scaling = campaign.carry_out(scaling_measurements(&names));
@@ -400,7 +402,7 @@ fn native_reproduction() -> Reproduction {
             examinations: Vec::new(),
             notes: Vec::new(),
         },
-        curves: curves(),
+        curves: curves(&declared),
         spheres: Spheres::default(),
         published: None,
         provenances: Vec::new(),

@@ -3,7 +3,7 @@
 use insta::assert_snapshot;
 use proptest::prelude::*;
 use proptest::sample::select;
-use tristack::code::{Code, ParameterFormat, Task, TaskKind};
+use tristack::code::{Code, ParameterFormat, SettledCode, Task, TaskKind};
 use tristack::model::{
     Case, ContactConvention, ContactTest, InitialMotion, Power, Preparation, Protocol, Pyramid,
     Sampling, SideWalls, Stack,
@@ -15,9 +15,14 @@ fn named(name: &str) -> Code {
     Code::named(name).expect("it is built in")
 }
 
+fn settled(name: &str) -> SettledCode {
+    let settled = named(name).as_declared();
+    settled.expect("nothing is left out")
+}
+
 fn parameters() -> serde_json::Value {
-    let convention = named("yade").convention();
-    let cases = plan(named("yade"), &Stack::paper(0.3, 1e2), convention).cases;
+    let convention = named("yade").declaration().convention;
+    let cases = plan(&settled("yade"), &Stack::paper(0.3, 1e2), convention).cases;
     cases[1].parameters()
 }
 
@@ -87,7 +92,7 @@ fn examples_for_running_by_hand_are_complete() {
 #[test]
 fn examples_of_side_walls_are_complete() {
     let stack = Stack::paper(0.2, 1e2);
-    let plan = plan_preparation(named("yade"), named("yade"), &stack, Some(0.005));
+    let plan = plan_preparation(&settled("yade"), &settled("yade"), &stack, Some(0.005));
     let parameters = plan.cases()[1].parameters();
     let given = names_in_json(&ParameterFormat::Json.content(&parameters));
     let json = include_str!("../yade_scripts/side_walls_parameters.json");
@@ -144,11 +149,11 @@ fn cases() -> impl Strategy<Value = Case> {
                 stack,
                 convention: ContactConvention {
                     restitution,
-                    ..code.convention()
+                    ..code.declaration().convention
                 },
                 protocol: Protocol {
                     preparation,
-                    time_step: step * stack.longest_time_step(&code.convention()),
+                    time_step: step * stack.longest_time_step(&code.declaration().convention),
                     wall_speed,
                     wall_travel,
                     sampling: Sampling {

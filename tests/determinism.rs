@@ -10,7 +10,7 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
-use tristack::code::Code;
+use tristack::code::SettledCode;
 use tristack::dem::compress_stack;
 use tristack::model::{Case, ContactConvention, sha256_hex};
 use tristack::runs::read_entry;
@@ -40,9 +40,10 @@ fn golden() -> Digests {
 
 /// The runs of the quick profile with the paper's springs, and those of its stacks with springs that turn.
 fn cases() -> Vec<Case> {
-    let fixed = Profile::Quick.measurements(&[Code::NATIVE]);
+    let fixed = Profile::Quick.measurements(&[SettledCode::native()]);
     let stacks = fixed.iter().map(|one| one.stack);
-    let turning = stacks.map(|stack| plan(Code::NATIVE, &stack, ContactConvention::TURNING));
+    let turning =
+        stacks.map(|stack| plan(&SettledCode::native(), &stack, ContactConvention::TURNING));
     let turning: Vec<_> = turning.collect();
     let cases = fixed.into_iter().chain(turning).flat_map(|one| one.cases);
     cases.collect()

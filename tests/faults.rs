@@ -8,7 +8,7 @@ use common::{Bench, json_rows, save_recording, standard_error, wait_for};
 use std::fs;
 use std::process::Stdio;
 use std::time::Duration;
-use tristack::code::{Code, ParameterFormat, Task};
+use tristack::code::{Code, ParameterFormat, SettledCode, Task};
 use tristack::dem::compress_stack;
 use tristack::model::{Case, Stack, sha256_hex};
 use tristack::runs::Recorded;
@@ -82,6 +82,11 @@ fn with_victim(disturbance: impl Fn() -> Disturbance, options: &str, expected: &
     let directory = directory.lines().next().expect("a line");
     let evidence = format!("{directory}/parameters.json");
     assert!(fs::exists(evidence).expect("readable"), "{directory}");
+}
+
+fn yade() -> SettledCode {
+    let code = Code::named("yade").expect("it is built in");
+    code.as_declared().expect("nothing is left out")
 }
 
 #[test]
@@ -328,12 +333,7 @@ fn a_friction_that_is_hardly_wrong_is_no_agreement() {
 #[test]
 fn a_series_of_the_same_stack_after_another_preparation_is_noticed() {
     let stack = Stack::paper(0.3, 100.0);
-    let cases = plan(
-        Code::named("yade").expect("it is built in"),
-        &stack,
-        Code::named("yade").expect("it is built in").convention(),
-    )
-    .cases;
+    let cases = plan(&yade(), &stack, yade().convention()).cases;
     let (middle, short) = (cases[MIDDLE_RUN], cases[SHORT_RAMP_RUN]);
     for (victim, other) in [(middle, short), (short, middle)] {
         let bench = Bench::with_system_programs();
@@ -399,12 +399,7 @@ fn output_of_an_earlier_run_does_not_pass_for_that_of_a_later_one() {
 fn a_deck_that_was_edited_in_a_run_directory_is_not_used_again() {
     let bench = Bench::with_system_programs();
     replay::install(&bench, |_| Disturbance::None);
-    let case = plan(
-        Code::named("yade").expect("it is built in"),
-        &Stack::paper(0.3, 100.0),
-        Code::named("yade").expect("it is built in").convention(),
-    )
-    .cases[0];
+    let case = plan(&yade(), &Stack::paper(0.3, 100.0), yade().convention()).cases[0];
     fs::write(bench.path("case.json"), case.to_json()).expect("a case");
     let line = "simulate --code yade --out run --case case.json";
     bench.tristack(line).assert().code(0);
@@ -493,11 +488,7 @@ fn record_keeps_the_old_recordings_if_a_run_fails() {
         }
     });
     let reference = bench.path("reference");
-    save_recording(
-        &reference,
-        Code::named("yade").expect("it is built in"),
-        |_| (),
-    );
+    save_recording(&reference, yade().name(), |_| ());
     let files = || ["yade.csv", "yade.tar.gz"].map(|name| fs::read(reference.join(name)).ok());
     let old = files();
     let mut record = bench.tristack("record --codes yade");

@@ -33,7 +33,7 @@ fn honest_and_rough(bench: &Bench) -> [PathBuf; 2] {
             true => Disturbance::None,
             false => rougher(case),
         });
-        let mut test = witness_test(yade.convention());
+        let mut test = witness_test(yade.declaration().convention);
         let asked = test;
         test.floor_friction *= if is_honest { 1.0 } else { 1.001 };
         replay::install_motion_as(&replay, &asked, &test);

@@ -8,7 +8,7 @@ use common::{Bench, json_rows, standard_output};
 use equations::Equations;
 use insta::assert_snapshot;
 use std::f64::consts::PI;
-use tristack::code::{Code, Identity};
+use tristack::code::{Identity, SettledCode};
 use tristack::dem::run_contact_test;
 use tristack::model::{
     Arms, ContactConvention, ContactTest, CoulombOperand, DampingGrowth, HistoryUpdate, Impact,
@@ -221,7 +221,7 @@ fn native_is_exact_under_every_law() {
     let powers = Power::ALL.map(of_power);
     let mut numbers = 0;
     for convention in powers.into_iter().chain([another()]) {
-        for study in plan_impacts(Code::NATIVE, convention) {
+        for study in plan_impacts(&SettledCode::native(), convention) {
             let (verdict, finding) = judge(&study, |test| test);
             let finding = finding.expect("a number");
             assert_eq!(verdict, Verdict::Agrees, "{study:?} {finding:?}");
@@ -242,7 +242,7 @@ fn differing(
     convention: ContactConvention,
     alter: impl Fn(ContactTest) -> ContactTest + Copy,
 ) -> Vec<(ImpactTarget, ImpactQuantity)> {
-    let studies = plan_impacts(Code::NATIVE, convention);
+    let studies = plan_impacts(&SettledCode::native(), convention);
     let mut differing = Vec::new();
     for study in studies {
         let found = (study.impact.target, study.quantity);
@@ -316,7 +316,7 @@ fn a_wrong_part_of_a_convention_differs() {
 
 #[test]
 fn a_contact_that_sticks_at_first_is_compared_with_a_twin() {
-    let studies = plan_impacts(Code::NATIVE, unlimited_damping());
+    let studies = plan_impacts(&SettledCode::native(), unlimited_damping());
     let twins = studies
         .iter()
         .filter(|own| own.reference() == Reference::Twin);
@@ -343,7 +343,7 @@ fn a_contact_that_sticks_again_is_compared_with_a_twin() {
         sliding_spring: SlidingSpring::FollowsLimit,
         ..ContactConvention::TURNING
     };
-    let studies = plan_impacts(Code::NATIVE, fading);
+    let studies = plan_impacts(&SettledCode::native(), fading);
     let twins = studies
         .iter()
         .filter(|own| own.reference() == Reference::Twin);
@@ -359,7 +359,7 @@ fn a_contact_that_sticks_again_is_compared_with_a_twin() {
 
 #[test]
 fn bodies_that_do_not_part_are_a_violation() {
-    let study = &plan_impacts(Code::NATIVE, ContactConvention::TURNING)[0];
+    let study = &plan_impacts(&SettledCode::native(), ContactConvention::TURNING)[0];
     let (verdict, finding) = judge(study, |mut test| {
         test.time_step *= 0.1;
         test

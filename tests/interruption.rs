@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicU64, Ordering};
 use tristack::code::Run;
-use tristack::code::{Code, Failure, Interrupt, RunContext};
+use tristack::code::{Code, Failure, Interrupt, RunContext, SettledCode};
 use tristack::files::{seal, unseal};
 use tristack::model::{Case, ContactConvention, Preparation, Stack};
 use tristack::runs::{Progress, Recorded, SelectedCode, Settings, Store, Workload};
@@ -18,7 +18,7 @@ fn long_cases(count: usize) -> Vec<Case> {
     let frictions = [0.2, 0.22, 0.24];
     let cases = frictions.into_iter().take(count).map(|friction| {
         let stack = Stack::paper(friction, 1e2);
-        let mut case = plan(Code::NATIVE, &stack, ContactConvention::TURNING).cases[0];
+        let mut case = plan(&SettledCode::native(), &stack, ContactConvention::TURNING).cases[0];
         case.protocol.time_step = 1e-3;
         case.protocol.sampling.coarse_interval *= 0.1;
         case
@@ -220,7 +220,7 @@ fn a_checkpoint_may_claim_any_duration() {
 /// A case with a checkpoint early in its compression: there is one after each 65536 steps.
 fn slow_start() -> Case {
     let stack = Stack::paper(0.3, 1e2);
-    let mut case = plan(Code::NATIVE, &stack, ContactConvention::TURNING).cases[0];
+    let mut case = plan(&SettledCode::native(), &stack, ContactConvention::TURNING).cases[0];
     case.protocol.preparation = Preparation::GravityRamp {
         ramp_time: 6000.0,
         rest_time: 400.0,

@@ -5,7 +5,7 @@ mod common;
 use common::{Bench, code_folder, json};
 use serde_json::Value;
 use std::fs;
-use tristack::code::Code;
+use tristack::code::SettledCode;
 use tristack::dem::compress_stack;
 use tristack::model::{Arms, Case, ContactConvention, Stack};
 use tristack::study::yield_force::{Measurement, plan};
@@ -18,7 +18,7 @@ const FURTHER: &str = "--coarse-step coarse.csv --short-ramp short.csv";
 const FILES: [&str; 5] = ["v4.csv", "v2.csv", "v1.csv", "coarse.csv", "short.csv"];
 
 fn measurement(convention: ContactConvention) -> Measurement {
-    plan(Code::NATIVE, &Stack::paper(0.3, 1e2), convention)
+    plan(&SettledCode::native(), &Stack::paper(0.3, 1e2), convention)
 }
 
 /// A bench with the five series of a measurement, and their first three speeds.

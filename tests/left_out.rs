@@ -7,18 +7,22 @@ use common::{Bench, code_folder, json, json_rows, standard_error, wait_for};
 use nix::sys::signal::{Signal, kill};
 use nix::unistd::Pid;
 use serde_json::Value;
+use std::convert::Infallible;
 use std::fmt::Display;
 use std::fs;
 use std::process::Stdio;
-use tristack::code::{Code, ConventionKey, Declaration, Failure, Interrupt, Settled, Unknown};
+use tristack::code::{
+    Code, ConventionKey, Declaration, Failure, Identity, Interrupt, Provenance, Settled,
+    SettledCode, Unknown,
+};
 use tristack::dem::run_contact_test;
 use tristack::model::{
-    Arms, ContactConvention, ContactTest, CoulombOperand, HistoryUpdate, Law, Power, SlidingSpring,
-    Stack,
+    Arms, ContactArms, ContactConvention, ContactTest, CoulombOperand, HistoryUpdate, Law, Power,
+    SlidingSpring, Stack,
 };
-use tristack::runs::{Progress, Recorded, SelectedCode, Settings, Store};
+use tristack::runs::{Answer, ProbeRecord, Progress, Recorded, SelectedCode, Settings, Store};
 use tristack::series::Motion;
-use tristack::study::convention::{Finding, probe, probe_all, settle_by};
+use tristack::study::convention::{Finding, probe, probe_all, read_probe, settled_by};
 use tristack::study::trajectory::{TrajectoryJudgement, plan_trajectory, trajectory_stack};
 use tristack::study::yield_force::{Judgement, plan};
 use tristack::study::{Campaign, Verdict};
@@ -195,13 +199,79 @@ fn after_settling(
     let codes = [recorded, SelectedCode::find(Code::NATIVE)];
     let mut probed = probe_all(&codes[..1], &settings, &Silent).remove(0);
     change(&mut probed.as_mut().expect("it is recorded").settled);
-    settle_by(code, &probed);
+    let code = settled_by(code, &probed);
     let campaign = Campaign::new(&codes, &settings, &Silent);
     let stack = Stack::paper(0.3, 1e2);
-    let mut force = campaign.carry_out(vec![plan(code, &stack, code.convention())]);
-    let trajectory = plan_trajectory(code, &trajectory_stack(2, Power::Linear), code.convention());
+    let mut force = campaign.carry_out(vec![plan(&code, &stack, code.convention())]);
+    let trajectory = plan_trajectory(
+        &code,
+        &trajectory_stack(2, Power::Linear),
+        code.convention(),
+    );
     let mut trajectory = campaign.carry_out(vec![trajectory]);
     (force.swap_remove(0), trajectory.swap_remove(0))
+}
+
+/// The convention that a probe settles for `code`, whose micro-tests are answered by native runs with this arm at the floor.
+fn settled_with(code: Code, floor_arm: f64) -> SettledCode {
+    let mut answers = Vec::new();
+    probe(&code.declaration(), |tests| {
+        let answered = tests.iter().map(|test| {
+            let mut own = *test;
+            own.convention.arms.floor = ContactArms::reciprocal(floor_arm);
+            let motion = run_contact_test(&own).expect("finite motions");
+            answers.push(Answer {
+                test: *test,
+                input_hash: String::new(),
+                motion: motion.clone(),
+            });
+            motion
+        });
+        Ok::<Vec<Motion>, Infallible>(answered.collect())
+    })
+    .expect("every question is answered");
+    let identity = Identity {
+        code: code.to_string(),
+        version: "1".to_owned(),
+        package: None,
+        program_hash: None,
+        files_hash: None,
+        witness: None,
+    };
+    let record = ProbeRecord {
+        provenance: Provenance::now(identity, String::new(), Vec::new(), 1, 1.0),
+        answers,
+    };
+    settled_by(code, &read_probe(code, record))
+}
+
+/// Neither measurement knows of the other: each plans by its own arm, and is held to its own limit.
+#[test]
+fn one_code_is_measured_twice_in_one_process() {
+    let folder = tempfile::tempdir().expect("a directory");
+    let manifest = "schema = 1\nname = \"twice\"\n[program]\ncommand = [\"twice\"]\n\
+                    [tasks]\nstack = { files = [\"code.toml\"] }\nmotion = { files = [\"code.toml\"] }\n\
+                    [convention]\ncoulomb_operand = \"spring\"\n";
+    std::fs::write(folder.path().join("code.toml"), manifest).expect("a manifest");
+    let code = Code::in_folder(folder.path(), None).expect("a code");
+    assert_eq!(code.as_declared(), None);
+    let stack = Stack::paper(0.3, 1e2);
+    let arms = [0.0, -0.5, 0.0];
+    let measured = arms.map(|arm| settled_with(code, arm));
+    let limits = measured.each_ref().map(|settled| {
+        let planned = plan(settled, &stack, settled.convention());
+        assert_eq!(planned.cases[0].convention, settled.convention());
+        planned.limit.yield_force.expect("it yields")
+    });
+    for (arm, settled) in arms.iter().zip(&measured) {
+        assert_eq!(settled.convention().arms.floor.torque, *arm);
+        assert_eq!(settled.name(), code);
+    }
+    assert_eq!(limits[0], limits[2]);
+    assert!(
+        (limits[0] - limits[1]).abs() > 0.01 * limits[0],
+        "{limits:?}"
+    );
 }
 
 /// A rule that no alternative fits leaves the yield force alone, and takes the twin away from a trajectory.

@@ -177,7 +177,7 @@ fn all_installed_codes_follow_their_native_twins() {
         let own = rows.iter().filter(|row| row["code"] == code.as_str());
         let own: Vec<_> = own.collect();
         // A code that turns its springs has no second twin.
-        let twins = match code.convention().history_update {
+        let twins = match code.declaration().convention.history_update {
             HistoryUpdate::Rotated => 1,
             _ => 2,
         };
@@ -371,7 +371,8 @@ fn cases_of_both_preparations_come_back_in_order() {
         let directory = tempfile::tempdir().expect("a directory");
         let context = RunContext::new(directory.path(), &interrupt);
         // The shortest that is a run.
-        let mut ramp = plan(name, &Stack::paper(0.2, 1e2), name.convention()).cases[0];
+        let settled = name.as_declared().expect("nothing is left out");
+        let mut ramp = plan(&settled, &Stack::paper(0.2, 1e2), settled.convention()).cases[0];
         ramp.protocol.wall_travel *= 0.01;
         ramp.protocol.sampling.fine_from_travel = 0.0;
         let mut walls = ramp;

@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use std::fs;
 use std::os::unix::fs::PermissionsExt;
 use std::path::{Path, PathBuf};
-use tristack::code::{Code, Definition, Task};
+use tristack::code::{Code, Definition, SettledCode, Task};
 use tristack::dem::compress_stack;
 use tristack::model::{Case, Power, Stack};
 use tristack::series::Series;
@@ -620,9 +620,9 @@ fn a_folder_that_extends_a_code_gives_its_rows() {
 
 /// A case of some thousand steps.
 fn short_case() -> Case {
-    let native = Code::named("native").expect("it is built in");
+    let native = SettledCode::native();
     let stack = Stack::paper(0.3, 100.0);
-    let mut case = plan(native, &stack, native.convention()).cases[0];
+    let mut case = plan(&native, &stack, native.convention()).cases[0];
     case.protocol.wall_speed *= 8.0;
     case.protocol.sampling.coarse_interval /= 8.0;
     case.protocol.sampling.fine_interval /= 8.0;

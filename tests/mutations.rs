@@ -1,7 +1,9 @@
 //! A table of wrong codes: twins of the native DEM with one line changed, and the studies that notice.
 
 use std::path::Path;
-use tristack::code::{Batching, Code, Failure, Finished, InstalledCode, Interrupt, RunContext};
+use tristack::code::{
+    Batching, Code, Failure, Finished, InstalledCode, Interrupt, RunContext, SettledCode,
+};
 use tristack::code::{Identity, Provenance, Run};
 use tristack::dem::{
     Composite, Contact, ContactForce, ContactModel, Counterpart, compress_stack,
@@ -374,7 +376,11 @@ fn beside_a_stiffness_that_grows_everything_else_is_as_declared() {
 /// Crosscheck of one stack that yields at the floor.
 fn crosscheck(mutation: Mutation) -> Judgement {
     let stack = Stack::paper(0.3, 1e2);
-    let measurements = [plan(Code::NATIVE, &stack, ContactConvention::TURNING)];
+    let measurements = [plan(
+        &SettledCode::native(),
+        &stack,
+        ContactConvention::TURNING,
+    )];
     let codes = [TwinEngine::selected(mutation)];
     let judgements = with_settings(|settings| {
         Campaign::new(&codes, settings, &Silent).carry_out(measurements.to_vec())
@@ -407,7 +413,7 @@ fn crosscheck_alone(judgement: &Judgement) -> &'static str {
 #[test]
 fn the_unchanged_twin_is_the_native_code_to_the_last_bit() {
     let stack = Stack::paper(0.3, 1e3);
-    let case = plan(Code::NATIVE, &stack, ContactConvention::TURNING).cases[0];
+    let case = plan(&SettledCode::native(), &stack, ContactConvention::TURNING).cases[0];
     let ratio = case.stack.stiffness_ratio;
     let twin = Twin::new(&case.convention, ratio, Mutation::None);
     let series = compress_stack_with(&case, twin, || true).expect("a finite series");
@@ -433,17 +439,17 @@ fn assert_not_judged<S, F>(judged: &[Judged<S, F>]) {
 
 #[test]
 fn no_study_judges_a_code_whose_probe_contradicts_its_declaration() {
-    let (native, stack) = (Code::NATIVE, Stack::paper(0.3, 1e2));
+    let (native, stack) = (SettledCode::native(), Stack::paper(0.3, 1e2));
     let codes = [TwinEngine::selected(Mutation::FrictionOnePercentHigh)];
     with_settings(|settings| {
         let campaign = Campaign::new(&codes, settings, &Silent);
         let convention = ContactConvention::TURNING;
-        assert_not_judged(&campaign.carry_out(vec![plan(native, &stack, convention)]));
-        let trajectory = plan_trajectory(native, &stack, convention);
+        assert_not_judged(&campaign.carry_out(vec![plan(&native, &stack, convention)]));
+        let trajectory = plan_trajectory(&native, &stack, convention);
         assert_not_judged(&campaign.carry_out(vec![trajectory]));
-        let preparation = plan_preparation(native, native, &stack, Some(0.0));
+        let preparation = plan_preparation(&native, &native, &stack, Some(0.0));
         assert_not_judged(&campaign.carry_out(vec![preparation]));
-        let impact = plan_impacts(native, convention).swap_remove(0);
+        let impact = plan_impacts(&native, convention).swap_remove(0);
         assert_not_judged(&campaign.carry_out(vec![impact]));
         let survey = survey(
             &SurveyPlan::new(&[], &[stack], HistoryUpdate::Rotated),

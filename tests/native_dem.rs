@@ -5,7 +5,7 @@
 mod at_rest;
 
 use at_rest::{onset_and_peak, three_speeds};
-use tristack::code::Code;
+use tristack::code::SettledCode;
 use tristack::dem::{Cylinder, Facing, PlaneWall, Scene, SpringDashpot, compress_stack};
 use tristack::model::{
     Arms, ContactArms, ContactConvention, Law, PAPER_RESTITUTION, Power, Stack, sha256_hex,
@@ -120,7 +120,7 @@ fn a_pyramid_of_ten_between_walls_rests_on_the_floor_with_its_whole_weight() {
 #[test]
 fn preparation_ends_without_contact_between_the_bottom_cylinders_and_without_sliding() {
     for stack in [Stack::paper(0.12, 1e2), Stack::paper(0.3, 1e4)] {
-        let case = plan(Code::NATIVE, &stack, ContactConvention::TURNING).cases[1];
+        let case = plan(&SettledCode::native(), &stack, ContactConvention::TURNING).cases[1];
         let series = compress_stack(&case, || true).expect("a finite series");
         let start = series.samples()[0];
         assert!(start.bodies[1].position[0] - start.bodies[2].position[0] > 2.0);
@@ -135,7 +135,7 @@ fn preparation_ends_without_contact_between_the_bottom_cylinders_and_without_sli
 #[test]
 fn left_and_right_stay_mirror_images_up_to_the_yield() {
     let case = plan(
-        Code::NATIVE,
+        &SettledCode::native(),
         &Stack::paper(0.3, 1e2),
         ContactConvention::TURNING,
     )
@@ -157,7 +157,7 @@ fn left_and_right_stay_mirror_images_up_to_the_yield() {
 #[test]
 fn series_has_the_same_bits_everywhere() {
     let case = plan(
-        Code::NATIVE,
+        &SettledCode::native(),
         &Stack::paper(0.3, 1e3),
         ContactConvention::TURNING,
     )
@@ -205,7 +205,7 @@ fn onset_with_a_spring_that_nothing_turns_is_the_limit() {
             cylinder_friction: 0.7,
             ..stack
         };
-        let measurement = plan(Code::NATIVE, &stack, convention);
+        let measurement = plan(&SettledCode::native(), &stack, convention);
         let [at_rest, _] = onset_and_peak(&measurement);
         let exact = measurement.limit.slip_onset.unwrap();
         let apart = (at_rest - exact).abs() / (exact + f64::from(stack.bodies) + 1.0);
@@ -246,7 +246,7 @@ fn a_wall_speed_adds_to_onset_and_peak_what_theory_says() {
         (stack(0.31, 137.0, 4.3), hertz),
         (three, ContactConvention::TURNING),
     ] {
-        let measurement = plan(Code::NATIVE, &stack, convention);
+        let measurement = plan(&SettledCode::native(), &stack, convention);
         let curve = LimitCurve::new(&measurement.stack, &measurement.convention);
         let added = curve.speed_excess(&stack, &measurement.limit).unwrap();
         let found = added_per_speed(&measurement);

@@ -60,7 +60,8 @@ fn nested(root: &Path, code: Code) -> PathBuf {
 
 /// Some hundred steps under the convention of `code`.
 fn short_case(code: Code) -> Case {
-    let mut case = plan(code, &Stack::paper(0.3, 1e2), code.convention()).cases[0];
+    let code = code.as_declared().expect("nothing is left out");
+    let mut case = plan(&code, &Stack::paper(0.3, 1e2), code.convention()).cases[0];
     case.protocol.wall_travel *= 0.01;
     case.protocol.sampling.fine_from_travel = 0.0;
     case

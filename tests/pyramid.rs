@@ -109,7 +109,7 @@ fn other_codes_move_every_cylinder_of_a_pyramid_to_the_same_place() {
     for name in installed(&builders()) {
         let pyramid = Pyramid {
             rest_steps: 1000,
-            ..Pyramid::touching(10, 1e3, name.convention())
+            ..Pyramid::touching(10, 1e3, name.declaration().convention)
         };
         let directory = tempfile::tempdir().expect("a directory");
         let code = name.find().expect("it is installed");
@@ -147,7 +147,7 @@ fn a_code_without_a_deck_for_pyramids_and_a_pyramid_that_is_none_are_refused() {
             .builds_pyramids()
     );
     for name in installed(&[Code::named("yade").expect("it is built in")]) {
-        let pyramid = Pyramid::touching(2, 1e3, name.convention());
+        let pyramid = Pyramid::touching(2, 1e3, name.declaration().convention);
         let failure = name.find().expect("installed").build(&[pyramid], &context);
         let kind = failure.expect_err("no deck").kind;
         assert!(matches!(kind, FailureKind::Unsupported(_)));
@@ -169,7 +169,10 @@ fn the_cost_of_a_step_is_measured_for_every_code_and_pyramid() {
     codes.extend(installed(&builders()));
     let bench = PyramidBench {
         rows: vec![3, 5],
-        codes: codes.clone(),
+        codes: codes
+            .iter()
+            .map(|code| code.as_declared().expect("nothing is left out"))
+            .collect(),
         cylinder_steps: 3000,
         repeats: 2,
     };
@@ -197,7 +200,7 @@ fn examples_for_running_a_pyramid_by_hand_are_up_to_date() {
             "liggghts_inputs",
         ),
     ] {
-        let pyramid = Pyramid::touching(4, 1e3, code.convention());
+        let pyramid = Pyramid::touching(4, 1e3, code.declaration().convention);
         let beside = |name: &str| {
             let path = format!("{}/{folder}/{name}", env!("CARGO_MANIFEST_DIR"));
             std::fs::read_to_string(path).expect("an example")

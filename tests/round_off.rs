@@ -6,7 +6,8 @@ use tristack::series::YieldEstimates;
 use tristack::study::yield_force::{Extrapolation, extrapolate, plan};
 
 fn slip(code: &dyn InstalledCode, stack: &Stack) -> Extrapolation {
-    let cases = plan(code.name(), stack, code.name().convention()).cases;
+    let settled = code.name().as_declared().expect("nothing is left out");
+    let cases = plan(&settled, stack, settled.convention()).cases;
     let directory = tempfile::tempdir().expect("a directory");
     let interrupt = Interrupt::new();
     let context = RunContext::new(directory.path(), &interrupt);

@@ -4,7 +4,7 @@
 mod common;
 
 use common::{Bench, json_rows, standard_error, standard_output};
-use tristack::code::{Code, Failure, Interrupt};
+use tristack::code::{Code, Failure, Interrupt, SettledCode};
 use tristack::dem::compress_stack;
 use tristack::model::{HistoryUpdate, Preparation, Stack};
 use tristack::runs::Store;
@@ -136,8 +136,8 @@ fn a_stack_that_slides_while_the_walls_go_is_judged_by_its_peak() {
 /// Pinned on x86-64 Linux, debug build of version 0.1.0; see tests/native_dem.rs.
 #[test]
 fn series_has_the_same_bits_everywhere() {
-    let name = Code::NATIVE;
-    let case = plan_preparation(name, name, &Stack::paper(0.2, 1e2), Some(0.005)).cases()[0];
+    let name = SettledCode::native();
+    let case = plan_preparation(&name, &name, &Stack::paper(0.2, 1e2), Some(0.005)).cases()[0];
     let series = compress_stack(&case, || true).expect("a finite series");
     let expected = "7213659f2acf80021c6ade265307220d26f4da65b5cdc42c0cba9edc567f4a6f";
     assert_eq!(tristack::model::sha256_hex(&series.to_csv()), expected);
@@ -188,7 +188,8 @@ fn what_cannot_be_prepared_is_refused_with_what_can() {
 fn a_case_file_with_side_walls_is_refused_where_they_are_not_offered() {
     let bench = Bench::without_codes();
     let name = Code::named("lammps").expect("it is built in");
-    let case = plan_preparation(name, name, &Stack::paper(0.2, 1e2), Some(0.0)).cases()[0];
+    let name = name.as_declared().expect("nothing is left out");
+    let case = plan_preparation(&name, &name, &Stack::paper(0.2, 1e2), Some(0.0)).cases()[0];
     assert!(matches!(
         case.protocol.preparation,
         Preparation::SideWalls(_)

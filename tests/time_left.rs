@@ -62,7 +62,7 @@ fn seconds(key: &str) -> f64 {
 fn estimates(profile: Profile, stack: &Stack) -> Vec<f64> {
     let step = seconds("step");
     let yade = Code::named("yade").expect("it is built in");
-    let measurements = profile.measurements(&[yade]);
+    let measurements = profile.measurements(&[yade.as_declared().expect("nothing is left out")]);
     let row = measurements.iter().find(|row| row.stack == *stack);
     let cases = row.expect("it is one of the figure").cases.iter();
     cases.map(|case| case.total_steps() as f64 * step).collect()
@@ -217,7 +217,8 @@ fn a_code_that_ends_by_the_signal_that_tristack_gets_as_well_has_not_failed() {
 #[test]
 fn the_page_on_clusters_says_how_many_steps_the_literal_figure_takes() {
     let lammps = Code::named("lammps").expect("it is built in");
-    let measurements = Profile::Literal.measurements(&[lammps]);
+    let measurements =
+        Profile::Literal.measurements(&[lammps.as_declared().expect("nothing is left out")]);
     let cases = measurements.iter().flat_map(|row| &row.cases);
     let steps: Vec<u64> = cases.map(|case| case.total_steps()).collect();
     let (all, longest) = (steps.iter().sum::<u64>(), steps.iter().max());

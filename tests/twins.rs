@@ -3,7 +3,7 @@
 
 use std::path::Path;
 use tristack::code::Run;
-use tristack::code::{Code, Failure, Interrupt};
+use tristack::code::{Code, Failure, Interrupt, SettledCode};
 use tristack::model::{
     ContactConvention, CoulombOperand, HistoryUpdate, Power, SlidingSpring, TensileForce,
 };
@@ -25,8 +25,14 @@ impl Progress for Silence {
     fn warn(&self, _: &str) {}
 }
 
+/// The code of this name, which declares everything.
+fn settled(name: &str) -> SettledCode {
+    let code = Code::named(name).expect("it is built in");
+    code.as_declared().expect("nothing is left out")
+}
+
 /// The recorded runs of `code` beside twins with the convention `declared`.
-fn judged(code: Code, declared: ContactConvention) -> TrajectoryJudgement {
+fn judged(code: &SettledCode, declared: ContactConvention) -> TrajectoryJudgement {
     let store = tempfile::tempdir().expect("a temporary directory");
     let plan = plan_trajectory(code, &trajectory_stack(2, Power::Linear), declared);
     carried_out(plan, &store.path().join("store"))
@@ -44,13 +50,13 @@ fn carried_out(plan: Trajectory, store: &Path) -> TrajectoryJudgement {
     };
     let codes = [
         SelectedCode {
-            name: plan.code,
+            name: plan.code.name(),
             code: None,
         },
         SelectedCode::find(Code::NATIVE),
     ];
     // The native code is there by itself.
-    let codes = &codes[usize::from(plan.code == Code::NATIVE)..];
+    let codes = &codes[usize::from(plan.code.name() == Code::NATIVE)..];
     let mut judgements = Campaign::new(codes, &settings, &Silence).carry_out(vec![plan]);
     judgements.pop().expect("one code")
 }
@@ -106,18 +112,15 @@ fn count(judgement: &TrajectoryJudgement, verdict: Verdict) -> usize {
 
 #[test]
 fn a_twin_with_one_part_of_its_convention_wrong_differs() {
-    for code in [
-        Code::named("liggghts").expect("it is built in"),
-        Code::named("yade").expect("it is built in"),
-        Code::named("lammps").expect("it is built in"),
-    ] {
-        let own = judged(code, code.convention());
+    for name in ["liggghts", "yade", "lammps"] {
+        let code = settled(name);
+        let own = judged(&code, code.convention());
         assert_eq!(count(&own, Verdict::Agrees), own.comparisons().len());
         for (what, convention) in wrong(code.convention()) {
-            let judgement = judged(code, convention);
+            let judgement = judged(&code, convention);
             let differing = count(&judgement, Verdict::Differs);
-            println!("{code}, another {what}: {differing} comparisons differ");
-            assert!(differing > 0, "{code}: another {what} is not seen");
+            println!("{name}, another {what}: {differing} comparisons differ");
+            assert!(differing > 0, "{name}: another {what} is not seen");
         }
     }
 }
@@ -133,7 +136,7 @@ fn each_rule_for_the_spring_is_told_from_every_other() {
     };
     for own in HistoryUpdate::ALL {
         for declared in HistoryUpdate::ALL {
-            let mut plan = plan_trajectory(Code::NATIVE, &stack, following(declared));
+            let mut plan = plan_trajectory(&SettledCode::native(), &stack, following(declared));
             for case in &mut plan.cases {
                 case.convention = following(own);
             }
@@ -157,12 +160,12 @@ fn each_rule_for_the_spring_is_told_from_every_other() {
 #[test]
 fn the_collapse_tells_inertia_and_friction_apart_from_errors_of_the_step() {
     for what in ["inertia", "operand", "sliding spring"] {
-        let code = Code::named("liggghts").expect("it is built in");
+        let code = settled("liggghts");
         let (_, convention) = wrong(code.convention())
             .into_iter()
             .find(|(name, _)| *name == what)
             .expect("its name");
-        let judgement = judged(code, convention);
+        let judgement = judged(&code, convention);
         let full = judgement.comparisons().iter().filter(|comparison| {
             comparison.branch == Branch::Collapse && comparison.twin == Twin::Full
         });

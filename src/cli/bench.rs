@@ -5,7 +5,7 @@ use super::options::{CodeParser, Format, RunOptions, selected_codes, whole};
 use super::out::Out;
 use super::progress::during;
 use super::{CliError, ExitStatus, INTERRUPT};
-use crate::code::{Code, RunContext};
+use crate::code::{Code, RunContext, SettledCode};
 use crate::files::{FileError, Layout, Scratch};
 use crate::model::PAPER_BODIES;
 use crate::output::{
@@ -50,7 +50,7 @@ pub(super) struct Arguments {
 pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, CliError> {
     let mut codes = timed_codes(&arguments.codes)?;
     if arguments.codes.is_empty() && arguments.bodies != PAPER_BODIES {
-        codes.retain(|code| code.stacks_spheres());
+        codes.retain(|code| code.name().stacks_spheres());
     }
     let files = ["bench.csv", "bench.md", "scaling.csv", "performance.svg"];
     let layout = Layout::tables("bench.json", &files);
@@ -69,7 +69,7 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
 }
 
 /// The named codes with native, or else the installed ones.
-fn timed_codes(named: &[Code]) -> Result<Vec<Code>, CliError> {
+fn timed_codes(named: &[Code]) -> Result<Vec<SettledCode>, CliError> {
     if named.is_empty() {
         return Ok(during(
             "locating the programs of all codes",
@@ -79,15 +79,14 @@ fn timed_codes(named: &[Code]) -> Result<Vec<Code>, CliError> {
     let mut names = vec![Code::NATIVE];
     names.extend(named);
     let codes = selected_codes(&names)?;
-    settle(&codes, &RunOptions::default())?;
-    Ok(codes.iter().map(|selected| selected.name).collect())
+    settle(&codes, &RunOptions::default())
 }
 
 /// Measures the stack, and how lanes scale if that is printed or written; prints and writes all of it.
 fn time_stack(
     arguments: &Arguments,
     command: &str,
-    codes: &[Code],
+    codes: &[SettledCode],
     out: &Out,
     context: &RunContext,
 ) -> Result<ExitStatus, CliError> {
@@ -126,11 +125,11 @@ fn scaling_text(measured: &Scaling) -> String {
 fn time_pyramids(
     arguments: &Arguments,
     command: &str,
-    mut codes: Vec<Code>,
+    mut codes: Vec<SettledCode>,
     context: &RunContext,
 ) -> Result<ExitStatus, CliError> {
     if arguments.codes.is_empty() {
-        codes.retain(|code| code.builds_pyramids());
+        codes.retain(|code| code.name().builds_pyramids());
     }
     let default = PyramidBench::default();
     let bench = PyramidBench {

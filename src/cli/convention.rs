@@ -3,47 +3,59 @@
 use super::options::RunOptions;
 use super::progress::Reporter;
 use super::{CliError, INTERRUPT, complain, tell};
-use crate::code::Code;
+use crate::code::{Code, SettledCode};
 use crate::runs::{Progress, SelectedCode, Settings};
 use crate::study::convention;
 
-/// Settles the conventions of `codes`, and says on standard error what was measured. Nothing happens where the manifests
-/// leave nothing out.
-pub(super) fn settle(codes: &[SelectedCode], options: &RunOptions) -> Result<(), CliError> {
-    if codes.iter().all(|selected| selected.name.is_settled()) {
-        return Ok(());
+/// The conventions of `codes`, in their order; says on standard error what was measured where manifests leave something out.
+pub(super) fn settle(
+    codes: &[SelectedCode],
+    options: &RunOptions,
+) -> Result<Vec<SettledCode>, CliError> {
+    let declared = codes.iter().map(|selected| selected.name.as_declared());
+    if let Some(declared) = declared.collect() {
+        return Ok(declared);
     }
-    settle_with(codes, &options.settings()?, &Reporter::new());
+    let settled = settle_with(codes, &options.settings()?, &Reporter::new());
     match INTERRUPT.requested() {
         true => Err(CliError::Interrupted),
-        false => Ok(()),
+        false => Ok(settled),
     }
 }
 
 /// The same with these settings.
-pub(super) fn settle_with(codes: &[SelectedCode], settings: &Settings, progress: &dyn Progress) {
-    for (code, probed) in convention::settle(codes, settings, progress) {
+pub(super) fn settle_with(
+    codes: &[SelectedCode],
+    settings: &Settings,
+    progress: &dyn Progress,
+) -> Vec<SettledCode> {
+    let settled = convention::settle(codes, settings, progress).into_iter();
+    let told = settled.map(|(code, probed)| {
         match probed {
-            Ok(_) => tell_settled(code),
-            Err(_) if INTERRUPT.requested() => {}
-            Err(error) => {
-                complain!("{code}: its contact convention could not be measured: {error}")
+            Some(Ok(_)) => tell_settled(&code),
+            Some(Err(error)) if !INTERRUPT.requested() => {
+                let name = code.name();
+                complain!("{name}: its contact convention could not be measured: {error}");
             }
+            _ => {}
         }
-    }
+        code
+    });
+    told.collect()
 }
 
-/// The same for one `code`, which is looked up where something is left out.
-pub(super) fn settle_one(code: Code, options: &RunOptions) -> Result<(), CliError> {
-    match code.is_settled() {
-        true => Ok(()),
-        false => settle(&[SelectedCode::find(code)], options),
+/// The convention of one code, which is looked up where its manifest leaves something out.
+pub(super) fn settle_one(code: Code, options: &RunOptions) -> Result<SettledCode, CliError> {
+    if let Some(declared) = code.as_declared() {
+        return Ok(declared);
     }
+    let settled = settle(&[SelectedCode::find(code)], options)?;
+    Ok(settled.into_iter().next().expect("one for each code"))
 }
 
 /// What the probe of `code` has put in place of the keys that are left out.
-fn tell_settled(code: Code) {
-    let settled = code.settled();
+fn tell_settled(code: &SettledCode) {
+    let (settled, code) = (code.settled(), code.name());
     let left_out = code.declaration().left_out;
     let measured = left_out
         .iter()

@@ -11,7 +11,6 @@ use super::out::Out;
 use super::progress::{Reporter, during};
 use super::stack_set::StackSet;
 use super::{CliError, ExitStatus, published, tell};
-use crate::code::Code;
 use crate::files::Layout;
 use crate::model::Power;
 use crate::output::{
@@ -101,9 +100,8 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
     };
     let out = Out::claim(arguments.out.as_deref(), &layout())?;
     let settings = arguments.run.settings()?;
-    settle(&codes, &arguments.run)?;
-    let names: Vec<Code> = codes.iter().map(|selected| selected.name).collect();
-    let planned = || arguments.stacks.measurements(&names, arguments.law);
+    let settled = settle(&codes, &arguments.run)?;
+    let planned = || arguments.stacks.measurements(&settled, arguments.law);
     let mut measurements = during("planning", planned)?;
     if arguments.shortcuts {
         let shortened = measurements.into_iter().map(Measurement::shortened);

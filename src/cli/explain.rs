@@ -55,14 +55,14 @@ pub(super) fn explain(
 ) -> Result<ExitStatus, CliError> {
     let power = match row.code.accepts_any_convention() {
         true => power,
-        false => row.code.convention().law.power,
+        false => row.code.law().power,
     };
     let stack = stacks.others.stack(row.mu, row.stiffness, power)?;
     let accepted = row.code.check_stiffness_ratio(stack.stiffness_ratio);
     accepted.map_err(as_flag)?;
     let codes = find_all(&[row.code]);
-    settle(&codes, options)?;
-    let measurement = stacks.profile()?.measurement(row.code, &stack, power);
+    let settled = settle(&codes, options)?;
+    let measurement = stacks.profile()?.measurement(&settled[0], &stack, power);
     let measurements = vec![match shortcuts {
         true => measurement.shortened(),
         false => measurement,

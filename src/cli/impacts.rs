@@ -61,11 +61,11 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
     let mut codes = arguments.codes()?;
     let layout = Layout::tables("impacts.json", &["impacts.csv", "impacts.md"]);
     let out = Out::claim(arguments.out.as_deref(), &layout)?;
-    settle(&codes, &arguments.run)?;
+    let settled = settle(&codes, &arguments.run)?;
     let mut studies: Vec<ImpactStudy> = Vec::new();
-    for selected in &codes {
-        let convention = arguments.convention.of_contacts(selected.name)?;
-        studies.extend(plan_impacts(selected.name, convention));
+    for code in &settled {
+        let convention = arguments.convention.of_contacts(code)?;
+        studies.extend(plan_impacts(code, convention));
     }
     if codes.iter().all(|selected| selected.name != Code::NATIVE) {
         // Some impacts are compared with native twins.

@@ -4,7 +4,7 @@ use super::options::{ConventionOptions, Format, OneStackOptions, options_of, pos
 use super::out::{Out, write};
 use super::passport_files::LARGEST_PASSPORT;
 use super::{CliError, ExitStatus, tell};
-use crate::code::Code;
+use crate::code::SettledCode;
 use crate::files::{FileError, Layout, Links, read_bounded};
 use crate::model::{ContactLaw, InvalidValue, Stack, shown};
 use crate::output::{DataTable, json, judged_series, judged_series_text, junit};
@@ -125,7 +125,7 @@ fn judge(arguments: &SeriesArguments) -> Result<JudgedSeries, CliError> {
         Some(measured) => measured.convention,
         None => {
             arguments.convention.check_named_arms()?;
-            arguments.convention.of_contacts(Code::NATIVE)?
+            arguments.convention.of_contacts(&SettledCode::native())?
         }
     };
     let stack = arguments.stack.stack(convention.law.power)?;

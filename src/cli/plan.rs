@@ -108,7 +108,7 @@ fn rows(arguments: &Arguments, earlier: Option<&Plan>) -> Result<Vec<PlannedRow>
     }
     for measurement in arguments
         .stacks
-        .measurements(&[code], code.convention().law.power)?
+        .measurements(&[code.unmeasured("")], code.law().power)?
     {
         let row = PlannedRow::of(&measurement);
         if !rows.contains(&row) {

@@ -5,7 +5,7 @@ use super::options::{CodeParser, RunOptions, recording_directory, selected_codes
 use super::progress::Reporter;
 use super::trajectories::plans;
 use super::{CliError, ExitStatus, INTERRUPT, complain, tell};
-use crate::code::{Code, Run};
+use crate::code::{Code, Run, SettledCode};
 use crate::model::shown;
 use crate::model::{PAPER_BODIES, Power};
 use crate::paper::reproduction::summaries_to_record;
@@ -63,11 +63,16 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
     for selected in &codes {
         Recording::check_place(&directory, selected.name)?;
     }
-    settle(&codes, &arguments.run)?;
+    let settled = settle(&codes, &arguments.run)?;
     let settings = arguments.run.settings()?;
     let mut worst = ExitStatus::Success;
-    for selected in codes {
-        worst = worst.max(record(&selected, arguments.only, &settings, &directory)?);
+    for (selected, code) in codes.iter().zip(&settled) {
+        worst = worst.max(record(
+            (selected, code),
+            arguments.only,
+            &settings,
+            &directory,
+        )?);
         if INTERRUPT.requested() {
             return Ok(ExitStatus::Interrupted);
         }
@@ -77,7 +82,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
 
 /// Records one code.
 fn record(
-    selected: &SelectedCode,
+    (selected, code): (&SelectedCode, &SettledCode),
     only: Option<Set>,
     settings: &Settings,
     directory: &Path,
@@ -87,7 +92,13 @@ fn record(
         Some(_) => Recorded::new(directory).recording(name)?,
         None => Recording::default(),
     };
-    let made = make(&mut recording, selected, only, settings, &Reporter::new());
+    let made = make(
+        &mut recording,
+        (selected, code),
+        only,
+        settings,
+        &Reporter::new(),
+    );
     if let Err(error) = made {
         complain!("{name} is not recorded: {error}");
         return Ok(ExitStatus::CodeFailed);
@@ -103,7 +114,7 @@ fn record(
 /// Runs the wanted parts with one code, and puts them into `recording`.
 fn make(
     recording: &mut Recording,
-    selected: &SelectedCode,
+    (selected, code): (&SelectedCode, &SettledCode),
     only: Option<Set>,
     settings: &Settings,
     progress: &dyn Progress,
@@ -121,7 +132,7 @@ fn make(
     }
     let mut summaries = Vec::new();
     if wanted(Set::Crosscheck) {
-        summaries = quick_profile(selected, settings, progress)?;
+        summaries = quick_profile((selected, code), settings, progress)?;
     }
     if wanted(Set::Report) {
         summaries.extend(summaries_to_record(selected, settings, progress)?);
@@ -130,7 +141,7 @@ fn make(
         recording.put(RecordedRun::without_series(summary));
     }
     if wanted(Set::Trajectories) {
-        for run in trajectory_runs(selected, settings, progress)? {
+        for run in trajectory_runs((selected, code), settings, progress)? {
             recording.put(RecordedRun::with_series(run));
         }
     }
@@ -141,11 +152,11 @@ fn make(
 const RINGS: [u8; 2] = [3, 4];
 
 fn quick_profile(
-    selected: &SelectedCode,
+    (selected, code): (&SelectedCode, &SettledCode),
     settings: &Settings,
     progress: &dyn Progress,
 ) -> Result<Vec<RunSummary>, RunError> {
-    let power = selected.name.convention().law.power;
+    let power = selected.name.law().power;
     let mut stacks = Profile::Quick.stacks(power, PAPER_BODIES);
     if selected.name.stacks_spheres() && power == Power::Linear {
         stacks.extend(
@@ -154,7 +165,7 @@ fn quick_profile(
                 .concat(),
         );
     }
-    let plans = Profile::Quick.measurements_of(&stacks, &[selected.name], power);
+    let plans = Profile::Quick.measurements_of(&stacks, std::slice::from_ref(code), power);
     let workloads: Vec<Workload> = plans.iter().flat_map(Study::workloads).collect();
     let codes = std::slice::from_ref(selected);
     let results = read_all(&workloads, codes, settings, progress);
@@ -162,11 +173,11 @@ fn quick_profile(
 }
 
 fn trajectory_runs(
-    selected: &SelectedCode,
+    (selected, code): (&SelectedCode, &SettledCode),
     settings: &Settings,
     progress: &dyn Progress,
 ) -> Result<Vec<Run>, RunError> {
-    let plans = plans(std::iter::once(selected.name), PAPER_BODIES);
+    let plans = plans(std::slice::from_ref(code), PAPER_BODIES);
     // The code's own runs; native ones are never recorded.
     let own = plans
         .iter()

@@ -9,7 +9,9 @@ use super::out::Out;
 use super::pictures::Pictures;
 use super::progress::Reporter;
 use super::{CliError, ExitStatus, INTERRUPT, complain, given, print, tell};
-use crate::code::{Code, Failure, HOME, InstalledCode, Run, RunContext, keep_evidence};
+use crate::code::{
+    Code, Failure, HOME, InstalledCode, Run, RunContext, SettledCode, keep_evidence,
+};
 use crate::files::{FileError, Layout, read_case_with, remove_older, write_atomically};
 use crate::model::{
     Case, ContactConvention, InvalidValue, PartialCase, PartialProtocol, Protocol, Shortcuts,
@@ -114,8 +116,8 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
         return given::run(arguments, &given, path, command);
     }
     // Micro-tests go to the store, where the other commands find them.
-    settle_one(arguments.code(), &RunOptions::default())?;
-    let case = case(arguments)?;
+    let settled = settle_one(arguments.code(), &RunOptions::default())?;
+    let case = case(arguments, &settled)?;
     tell_changed_durations(&case);
     let limit = time_limit(arguments.time_limit)?;
     let code = arguments.code().find();
@@ -210,18 +212,18 @@ fn execute(
         .map_err(Box::new)
 }
 
-fn case(arguments: &Arguments) -> Result<Case, CliError> {
+fn case(arguments: &Arguments, code: &SettledCode) -> Result<Case, CliError> {
     if let Some(path) = &arguments.case {
-        let code = arguments.code();
         let case = read_case_with(path, |written| completed(written, code))?;
         let protocol = &case.protocol;
-        code.check_convention_of(&case)?;
+        code.check_case(&case)?;
+        let code = code.name();
         code.check_preparation(&case.stack, &protocol.preparation)?;
         code.check_shortcuts(protocol.shortcuts.is_some())?;
         return Ok(case);
     }
     let bodies = arguments.stack.bodies();
-    let convention = arguments.convention.of(arguments.code(), bodies)?;
+    let convention = arguments.convention.of(code, bodies)?;
     let stack = arguments.stack.stack(convention.law.power)?;
     let convention = convention.of_bodies(&stack);
     let accepted = arguments
@@ -261,7 +263,7 @@ fn planned(
 }
 
 /// The case of which a file says a part: the rest is as for a case of the command line.
-fn completed(written: &PartialCase, code: Code) -> Result<Case, InvalidValue> {
+fn completed(written: &PartialCase, code: &SettledCode) -> Result<Case, InvalidValue> {
     let own = &written.protocol;
     let convention = written.convention.unwrap_or_else(|| of_files(code));
     let stack = written.stack.in_law(convention.law.power);
@@ -284,8 +286,8 @@ fn completed(written: &PartialCase, code: Code) -> Result<Case, InvalidValue> {
 
 /// What a case file for `code` means that says nothing of the convention: springs turn in files, unless these say otherwise,
 /// whatever the command line means.
-fn of_files(code: Code) -> ContactConvention {
-    match code.accepts_any_convention() {
+fn of_files(code: &SettledCode) -> ContactConvention {
+    match code.name().accepts_any_convention() {
         true => ContactConvention::default(),
         false => code.convention(),
     }
@@ -298,7 +300,10 @@ fn example() -> Result<String, CliError> {
         convention: Some(ContactConvention::PAPER),
         protocol: PartialProtocol::default(),
     };
-    Ok(commented_case(&completed(&written, Code::NATIVE)?))
+    Ok(commented_case(&completed(
+        &written,
+        &SettledCode::native(),
+    )?))
 }
 
 /// `protocol` with the preparation of the command line.

@@ -1,7 +1,7 @@
 //! The stacks of a crosscheck on the command line.
 
 use super::options::{FRICTIONS, Friction, STIFFNESSES, StackOptions, Stiffness, Values, as_flag};
-use crate::code::Code;
+use crate::code::{Code, SettledCode};
 use crate::model::{InvalidValue, Power, Stack};
 use crate::output::friction;
 use crate::study::yield_force::{Measurement, Profile};
@@ -100,10 +100,10 @@ impl StackSet {
         Ok(codes)
     }
 
-    /// The measurements of the stacks by each of the codes `names`, by a law of this power.
+    /// The measurements of the stacks by each of `codes`, by a law of this power.
     pub fn measurements(
         &self,
-        names: &[Code],
+        codes: &[SettledCode],
         power: Power,
     ) -> Result<Vec<Measurement>, InvalidValue> {
         let own = self.own_stacks(power)?;
@@ -113,12 +113,12 @@ impl StackSet {
         };
         let pairs = stacks
             .iter()
-            .flat_map(|stack| names.iter().map(move |name| (stack, name)));
+            .flat_map(|stack| codes.iter().map(move |code| (stack, code)));
         pairs
             .into_iter()
-            .try_for_each(|(stack, name)| name.check_stiffness_ratio(stack.stiffness_ratio))
+            .try_for_each(|(stack, code)| code.name().check_stiffness_ratio(stack.stiffness_ratio))
             .map_err(as_flag)?;
-        let all = self.profile()?.measurements_of(&stacks, names, power);
+        let all = self.profile()?.measurements_of(&stacks, codes, power);
         match own {
             Some(_) => Ok(all),
             None => self.chosen(all),

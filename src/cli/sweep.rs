@@ -64,10 +64,8 @@ fn without_runs(mut judgement: Judgement) -> Judgement {
 
 /// Measures the curve, prints and writes its rows.
 pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, CliError> {
-    settle_one(arguments.code, &arguments.run)?;
-    let convention = arguments
-        .convention
-        .of(arguments.code, arguments.stack.bodies())?;
+    let code = settle_one(arguments.code, &arguments.run)?;
+    let convention = arguments.convention.of(&code, arguments.stack.bodies())?;
     let accepted = arguments.code.check_shortcuts(arguments.shortcuts);
     accepted.map_err(as_flag)?;
     let codes = selected_codes(&[arguments.code])?;
@@ -80,7 +78,7 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
     let out = Out::claim(arguments.out.as_deref(), &layout)?;
     let settings = arguments.run.settings()?;
     let planned = |stack: &Stack| {
-        let measurement = plan(arguments.code, stack, convention);
+        let measurement = plan(&code, stack, convention);
         match arguments.shortcuts {
             true => measurement.shortened(),
             false => measurement,

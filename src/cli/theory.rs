@@ -2,7 +2,7 @@
 
 use super::options::{ConventionOptions, Format, StackListOptions, positive};
 use super::{CliError, ExitStatus, INTERRUPT};
-use crate::code::Code;
+use crate::code::SettledCode;
 use crate::output::{theories_by_stack, theory};
 use crate::theory::Predictions;
 use clap::Args;
@@ -29,7 +29,7 @@ pub(super) struct Arguments {
 pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, CliError> {
     let convention = arguments
         .convention
-        .of(Code::NATIVE, arguments.stack.bodies())?;
+        .of(&SettledCode::native(), arguments.stack.bodies())?;
     let stacks = arguments.stack.stacks(convention.law.power)?;
     let predictions: Vec<Predictions> = Predictions::of_each(&stacks, &convention)
         .map(|own| match arguments.speed {

@@ -7,7 +7,7 @@ use super::options::{
 use super::progress::{Reporter, during};
 use super::stack_set::StackSet;
 use super::{CliError, ExitStatus, INTERRUPT, tell};
-use crate::code::{Code, RunContext};
+use crate::code::RunContext;
 use crate::files::{FileError, Scratch};
 use crate::model::Power;
 use crate::output::{AllDurations, all_durations, code_durations, durations_text};
@@ -47,9 +47,8 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
         true => find_all(&arguments.stacks.codes(arguments.law)?),
         false => selected_codes(&named)?,
     };
-    settle(&codes, &arguments.run)?;
-    let names: Vec<Code> = codes.iter().map(|selected| selected.name).collect();
-    let mut measurements = arguments.stacks.measurements(&names, arguments.law)?;
+    let settled = settle(&codes, &arguments.run)?;
+    let mut measurements = arguments.stacks.measurements(&settled, arguments.law)?;
     if arguments.shortcuts {
         let shortened = measurements.into_iter().map(Measurement::shortened);
         measurements = shortened.collect();

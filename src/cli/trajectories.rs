@@ -6,7 +6,7 @@ use super::options::{CodeOptions, Format, RunOptions, selected_codes, tell_stand
 use super::out::Out;
 use super::progress::{Reporter, during};
 use super::{CliError, ExitStatus, tell};
-use crate::code::Code;
+use crate::code::{Code, SettledCode};
 use crate::files::Layout;
 use crate::model::{InvalidValue, PAPER_BODIES};
 use crate::output::{json, trajectories, trajectories_markdown, trajectories_text};
@@ -53,9 +53,8 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
     let layout = Layout::tables("trajectories.json", &files);
     let out = Out::claim(arguments.out.as_deref(), &layout)?;
     let settings = arguments.run.settings()?;
-    settle(&codes, &arguments.run)?;
-    let names = codes.iter().map(|selected| selected.name);
-    let plans = during("planning", || plans(names, arguments.bodies));
+    let settled = settle(&codes, &arguments.run)?;
+    let plans = during("planning", || plans(&settled, arguments.bodies));
     codes.push(SelectedCode::find(Code::NATIVE));
     let planned = plans.len();
     let judgements = Campaign::new(&codes, &settings, &Reporter::new()).carry_out(plans);
@@ -76,14 +75,14 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
     Ok(found.max(printed).max(written))
 }
 
-/// The plans for the codes, each under its declared convention.
-pub(super) fn plans(names: impl Iterator<Item = Code>, bodies: u8) -> Vec<Trajectory> {
-    let plan = |name: Code| {
-        let convention = name.convention();
+/// The plans for the codes, each under its own convention.
+pub(super) fn plans(codes: &[SettledCode], bodies: u8) -> Vec<Trajectory> {
+    let plan = |code: &SettledCode| {
+        let convention = code.convention();
         let stack = trajectory_stack(bodies, convention.law.power);
-        plan_trajectory(name, &stack, convention)
+        plan_trajectory(code, &stack, convention)
     };
-    names.map(plan).collect()
+    codes.iter().map(plan).collect()
 }
 
 fn refuse_native(named: &[Code]) -> Result<(), InvalidValue> {

@@ -95,6 +95,22 @@ impl ConventionKey {
         })
     }
 
+    /// Puts its value in `from` into `into`; a key of the integration is in neither.
+    pub(super) fn copy(self, from: &ContactConvention, into: &mut ContactConvention) {
+        match self {
+            Self::CoulombOperand => into.coulomb_operand = from.coulomb_operand,
+            Self::SlidingSpring => into.sliding_spring = from.sliding_spring,
+            Self::HistoryUpdate => into.history_update = from.history_update,
+            Self::TensileForce => into.tensile_force = from.tensile_force,
+            Self::MomentOfInertia => into.moment_of_inertia = from.moment_of_inertia,
+            _ => {
+                if let Some(arm) = self.arm(&from.arms) {
+                    self.set_arm(&mut into.arms, arm);
+                }
+            }
+        }
+    }
+
     /// The keys that `manifest` leaves out. A kinematic arm is declared with the torque arm, which it is where it is not
     /// written.
     pub(super) fn left_out_of(manifest: &DeTable) -> Vec<Self> {

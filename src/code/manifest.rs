@@ -1,7 +1,7 @@
 //! The keys of a manifest.
 
 use super::columns::{Written, read_columns};
-use super::convention::{ConventionKey, Settled};
+use super::convention::ConventionKey;
 use super::format::{ParameterFormat, ResultFormat};
 use super::manifest_error::Place;
 use crate::model::ContactConvention;
@@ -9,7 +9,6 @@ use crate::series::ColumnSources;
 use schemars::JsonSchema;
 use serde::Deserialize;
 use std::collections::BTreeMap;
-use std::sync::OnceLock;
 use toml::{Spanned, Table};
 
 /// One code, as the manifest describes it.
@@ -63,9 +62,6 @@ pub struct Definition {
     /// The keys of the convention that are left out, which the probe measures.
     #[serde(skip)]
     pub(super) left_out: Vec<ConventionKey>,
-    /// The convention after the probe.
-    #[serde(skip)]
-    pub(super) settled: OnceLock<Settled>,
     /// Properties of its time integration.
     #[serde(default)]
     pub(super) integration: Integration,

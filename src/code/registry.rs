@@ -1,6 +1,6 @@
 //! The codes: those whose folders are part of this program, and those whose folders were given by path.
 
-use super::convention::{Declaration, Settled};
+use super::convention::Declaration;
 use super::difference::difference;
 use super::folder::{BUILT_IN, Folder};
 use super::manifest::{Definition, Integration, Mark, RefusedOutside, RefusedValues, TaskKind};
@@ -62,7 +62,7 @@ impl Code {
 
     /// Whether its normal force grows with this power of the overlap.
     pub(crate) fn has_power(self, power: Power) -> bool {
-        self.accepts_any_convention() || self.convention().law.power == power
+        self.accepts_any_convention() || self.law().power == power
     }
 
     /// The code with the given `name`.
@@ -153,34 +153,23 @@ impl Code {
         self.earlier_variants().next().is_none()
     }
 
-    /// Whether an earlier variant of its folder has the same contacts.
+    /// Whether an earlier variant of its folder declares the same contacts.
     pub(crate) fn repeats_another(self) -> bool {
-        self.earlier_variants()
-            .any(|code| code.convention() == self.convention())
+        let own = self.as_declared();
+        own.is_some_and(|own| {
+            let mut declared = self.earlier_variants().filter_map(Self::as_declared);
+            declared.any(|earlier| earlier.convention() == own.convention())
+        })
     }
 
-    /// The contact convention of the code, with the paper's values for what is left out and not settled yet; native,
-    /// which accepts any, has the paper's as its default.
-    pub fn convention(self) -> ContactConvention {
-        self.settled().convention
+    /// Its contact law, which every manifest declares; native, which accepts any, has the paper's as its default.
+    pub fn law(self) -> Law {
+        self.definition().convention.law
     }
 
-    /// Its convention for stacks of so many bodies with a law of this power: the usual one if the convention is part of the
-    /// case, else its own.
-    pub(crate) fn stack_convention(self, power: Power, bodies: u8) -> ContactConvention {
-        let own = self.convention();
-        match self.accepts_any_convention() {
-            true => ContactConvention::usual(own.arms, Law::of_power(power), bodies),
-            false => own,
-        }
-    }
-
-    /// Properties of its time integration.
+    /// Properties of its time integration, of which the velocity lag may be left out ([`Self::declaration`]).
     pub(crate) fn integration(self) -> Integration {
-        Integration {
-            velocity_lag: self.settled().velocity_lag,
-            ..self.definition().integration
-        }
+        self.definition().integration
     }
 
     /// The properties that its manifest declares.
@@ -192,27 +181,6 @@ impl Code {
             left_out: definition.left_out.clone(),
             in_space: definition.runs(TaskKind::SpheresMotion),
         }
-    }
-
-    /// Its convention after its probe, or as long as it has not been probed, with the keys that are left out as unknown.
-    pub fn settled(self) -> Settled {
-        let settled = self.definition().settled.get();
-        settled.cloned().unwrap_or_else(|| {
-            let declaration = self.declaration();
-            declaration.unsettled("it has not been measured")
-        })
-    }
-
-    /// Whether nothing is left out of its convention, or what is left out has been probed.
-    pub fn is_settled(self) -> bool {
-        let definition = self.definition();
-        definition.left_out.is_empty() || definition.settled.get().is_some()
-    }
-
-    /// Settles its convention. A convention is settled once, because planned cases hold it; later ones are ignored.
-    pub(crate) fn settle(self, settled: Settled) {
-        // The first stays.
-        let _ = self.definition().settled.set(settled);
     }
 
     /// Whether its folder is part of this program.
@@ -227,21 +195,9 @@ impl Code {
         self == Self::NATIVE
     }
 
-    /// Refuses a convention that is not that of the code; the restitution is a parameter of every code.
-    pub(crate) fn check_convention(self, asked: &ContactConvention) -> Result<(), InvalidValue> {
-        self.check_against(self.convention(), asked)
-    }
-
-    /// The same for micro-tests, which are asked for under the declaration, whatever they have shown.
-    pub(super) fn check_declaration(self, asked: &ContactConvention) -> Result<(), InvalidValue> {
-        self.check_against(self.definition().convention, asked)
-    }
-
-    fn check_against(
-        self,
-        own: ContactConvention,
-        asked: &ContactConvention,
-    ) -> Result<(), InvalidValue> {
+    /// Refuses a convention that contradicts the declaration of the code. The keys that its manifest leaves out may be
+    /// anything, and the restitution is a parameter of every code.
+    pub(crate) fn check_declared(self, asked: &ContactConvention) -> Result<(), InvalidValue> {
         if self.accepts_any_convention() {
             return Ok(());
         }
@@ -252,8 +208,23 @@ impl Code {
             let accepted = format!("any other number for {self}: {because}");
             return Err(refused("convention.restitution", restitution, accepted));
         }
-        let own = ContactConvention { restitution, ..own };
-        difference(asked, &own).map_or(Ok(()), |(key, value, own)| {
+        let mut own = ContactConvention {
+            restitution,
+            ..self.definition().convention
+        };
+        for key in &self.definition().left_out {
+            key.copy(asked, &mut own);
+        }
+        self.refuse_difference(asked, &own)
+    }
+
+    /// Refuses a convention that is not the code's `own`.
+    pub(super) fn refuse_difference(
+        self,
+        asked: &ContactConvention,
+        own: &ContactConvention,
+    ) -> Result<(), InvalidValue> {
+        difference(asked, own).map_or(Ok(()), |(key, value, own)| {
             let key = format!("convention.{key}");
             Err(refused(&key, value, format!("{own} for {self}")))
         })

@@ -200,23 +200,23 @@ impl ParameterFile {
 }
 
 impl Code {
-    /// Refuses a task under another convention than that of the code, or with a stiffness ratio that it cannot have. Micro-tests are asked for under the declaration,
-    /// whatever they have shown.
+    /// Refuses a task whose convention contradicts the declaration of the code, or with a stiffness ratio that it cannot
+    /// have.
     pub(crate) fn check_convention_of<T: Task>(self, task: &T) -> Result<(), InvalidValue> {
-        // Spheres are solid, whatever the cylinders are.
-        let as_of_cylinders = |own: ContactConvention| ContactConvention {
-            moment_of_inertia: own.moment_of_inertia,
-            ..*task.convention()
-        };
-        match task.kind() {
-            TaskKind::Motion => self.check_declaration(task.convention()),
-            TaskKind::Spheres => self.check_convention(&as_of_cylinders(self.convention())),
-            TaskKind::SpheresMotion => {
-                self.check_declaration(&as_of_cylinders(self.declaration().convention))
-            }
-            _ => self.check_convention(task.convention()),
-        }?;
+        self.check_declared(&self.as_of_cylinders(task))?;
         self.check_stiffness_ratio(task.stiffness_ratio())
+    }
+
+    /// The convention of `task` as the manifest declares it, of cylinders: spheres are solid, whatever these are.
+    pub(super) fn as_of_cylinders<T: Task>(self, task: &T) -> ContactConvention {
+        let own = *task.convention();
+        match task.kind() {
+            TaskKind::Spheres | TaskKind::SpheresMotion => ContactConvention {
+                moment_of_inertia: self.declaration().convention.moment_of_inertia,
+                ..own
+            },
+            _ => own,
+        }
     }
 
     /// The files that a run of `task` leaves in its directory, as far as the manifest names them.

@@ -2,7 +2,7 @@
 
 use super::table::{Columns, DataTable};
 use crate::code::{Code, Identity, TaskKind};
-use crate::model::ContactArms;
+use crate::model::{Arms, ContactArms};
 use crate::runs::SelectedCode;
 
 /// One row per code of `codes`.
@@ -35,13 +35,9 @@ pub(crate) fn inventory(codes: &[SelectedCode]) -> DataTable<'static> {
     .means("distribution package and its version")
     .shown("package")
     .dispensable(2)
-    .convention(|(code, _)| code.is_settled().then(|| code.convention()))
-    .right("pair arm", |(code, _)| {
-        arms(*code, code.convention().arms.pair)
-    })
-    .right("floor arm", |(code, _)| {
-        arms(*code, code.convention().arms.floor)
-    })
+    .convention(|(code, _)| code.as_declared().map(|code| code.convention()))
+    .right("pair arm", |(code, _)| arms(*code, |arms| arms.pair))
+    .right("floor arm", |(code, _)| arms(*code, |arms| arms.floor))
     .text("deck_hash", |(code, _)| code.files_hash(TaskKind::Stack))
     .means("SHA-256 of the deck")
     .shown("deck")
@@ -53,10 +49,11 @@ pub(crate) fn inventory(codes: &[SelectedCode]) -> DataTable<'static> {
 }
 
 /// Arms for people, marked where they are only the default of a code that accepts any. Nothing is measured for a list.
-fn arms(code: Code, arms: ContactArms) -> String {
-    if !code.is_settled() {
+fn arms(code: Code, of: fn(&Arms) -> ContactArms) -> String {
+    let Some(declared) = code.as_declared() else {
         return "not declared".to_owned();
-    }
+    };
+    let arms = of(&declared.convention().arms);
     match code.accepts_any_convention() {
         true => format!("{arms} (any)"),
         false => arms.to_string(),

@@ -42,7 +42,7 @@ pub(crate) fn trajectories(judgements: &[TrajectoryJudgement]) -> DataTable<'_> 
     .version(|(judgement, _)| &judgement.version)
     .source(|(judgement, _)| judgement.source)
     .stack(|(judgement, _)| judgement.study.stack)
-    .convention(|(judgement, _)| judgement.code.convention())
+    .convention(|(judgement, _)| judgement.study.code.convention())
     .text("twin", |row| Some(compared(row)?.twin.as_str()))
     .means("what the twin has of the convention of the code")
     .text("quantity", |row| Some(compared(row)?.quantity.as_str()))

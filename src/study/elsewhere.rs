@@ -1,8 +1,8 @@
 //! Campaigns whose runs are made elsewhere: the plan of them, in rounds where later runs depend on earlier results.
 
-use super::convention::{ROUNDS, probe, settle_by_files};
+use super::convention::{ROUNDS, probe, settled_by_files};
 use super::yield_force::{Measurement, Method, planned};
-use crate::code::{Code, FailureKind, PlannedRun, PreparedRun, ResultFiles, TaskKind};
+use crate::code::{Code, FailureKind, PlannedRun, PreparedRun, ResultFiles, SettledCode, TaskKind};
 use crate::files::{FileError, Links, parse_json, read_bounded};
 use crate::model::{InvalidValue, Stack, exact};
 use serde::{Deserialize, Serialize};
@@ -96,14 +96,17 @@ impl Plan {
         version: Option<String>,
     ) -> Result<(Self, Vec<PreparedRun>), InvalidValue> {
         let (mut prepared, further) = micro_tests(code, root)?;
-        if !code.is_settled() {
+        let settled = code.as_declared().or_else(|| {
             let runs: Vec<PlannedRun> = prepared.iter().map(|one| one.run.clone()).collect();
-            settle_by_files(&ResultFiles::new(code, "", root, &runs));
-        }
+            settled_by_files(&ResultFiles::new(code, "", root, &runs))
+        });
         // Without micro-tests nothing will settle it.
-        let is_open = !code.is_settled() && !prepared.is_empty();
-        for row in rows.iter().filter(|_| !is_open) {
-            prepared.extend(row.runs(code)?);
+        let is_open = settled.is_none() && !prepared.is_empty();
+        if !is_open {
+            let settled = settled.unwrap_or_else(|| code.unmeasured("it has not been measured"));
+            for row in &rows {
+                prepared.extend(row.runs(&settled)?);
+            }
         }
         let mut known = BTreeSet::new();
         prepared.retain(|one| known.insert(one.run.deck_hash.clone()));
@@ -125,7 +128,7 @@ impl Plan {
     }
 
     /// The measurements that the rows stand for, by `code`.
-    pub(crate) fn measurements(&self, code: Code) -> Vec<Measurement> {
+    pub(crate) fn measurements(&self, code: &SettledCode) -> Vec<Measurement> {
         let rows = self.rows.iter();
         rows.map(|row| row.measurement(code)).collect()
     }
@@ -169,20 +172,20 @@ impl PlannedRow {
         }
     }
 
-    fn measurement(&self, code: Code) -> Measurement {
-        let power = code.convention().law.power;
+    fn measurement(&self, code: &SettledCode) -> Measurement {
+        let power = code.name().law().power;
         let convention = code.stack_convention(power, self.stack.bodies);
         planned(code, &self.stack, convention, self.method)
     }
 
     /// The runs of the row, in directories named after the stack, and the place of the run in its measurement.
-    fn runs(&self, code: Code) -> Result<Vec<PreparedRun>, InvalidValue> {
+    fn runs(&self, code: &SettledCode) -> Result<Vec<PreparedRun>, InvalidValue> {
         let (mu, stiffness) = (self.stack.floor_friction, self.stack.stiffness);
         let (mu, stiffness) = (exact(mu), exact(stiffness));
         let cases = self.measurement(code).cases;
         let runs = (1..).zip(&cases).map(|(run, case)| {
             let place = format!("runs/mu-{mu}-stiffness-{stiffness}/{run}");
-            code.prepare_elsewhere(case, &place)
+            code.name().prepare_elsewhere(case, &place)
         });
         runs.collect()
     }

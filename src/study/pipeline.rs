@@ -2,9 +2,10 @@
 
 use super::convention::{
     Probed, arms_are_measured, contradictions, is_contradicted, other_program, probe_all,
+    settled_by,
 };
 use super::verdict::{Ground, Grounds, Verdict};
-use crate::code::{Code, Identity, InstalledCode, Unknown};
+use crate::code::{Code, Identity, InstalledCode, SettledCode, Unknown};
 use crate::runs::{
     Outlook, Progress, Reading, RunError, SelectedCode, Settings, Workload, outlook, read_all,
 };
@@ -18,8 +19,8 @@ pub trait Study {
     /// The result of the runs.
     type Finding;
 
-    /// The code that is judged.
-    fn code(&self) -> Code;
+    /// The code that is judged, under the convention that the study holds it to.
+    fn code(&self) -> SettledCode;
 
     /// Whether its result depends on what is `unknown` of the convention of the code.
     fn depends_on(&self, _unknown: &Unknown) -> bool {
@@ -98,8 +99,8 @@ pub struct Judged<S, F> {
 impl<S: Study> Judged<S, S::Finding> {
     /// Withdraws a judgement that depends on a part of the convention which neither the manifest nor the probe says.
     fn hold_to_settled(&mut self) {
-        for unknown in self.code.settled().unknown {
-            if self.study.depends_on(&unknown) {
+        for unknown in &self.study.code().settled().unknown {
+            if self.study.depends_on(unknown) {
                 let Unknown { key, because, .. } = unknown;
                 self.grounds.add(Ground::NotJudged {
                     note: format!(
@@ -167,6 +168,17 @@ impl<'a> Campaign<'a> {
         self.codes.iter().map(|selected| selected.name).collect()
     }
 
+    /// The codes under their settled conventions, in their order: as declared, or where a manifest leaves something out, as
+    /// their probes show.
+    pub fn settled(&self) -> Vec<SettledCode> {
+        let codes = self.codes.iter().enumerate();
+        let settled = codes.map(|(place, selected)| {
+            let declared = selected.name.as_declared();
+            declared.unwrap_or_else(|| settled_by(selected.name, &self.probes()[place]))
+        });
+        settled.collect()
+    }
+
     /// How runs are carried out.
     pub fn settings(&self) -> &'a Settings<'a> {
         self.settings
@@ -224,7 +236,7 @@ impl<'a> Campaign<'a> {
         study: S,
         results: Vec<Vec<Result<S::Reading, RunError>>>,
     ) -> Option<Judged<S, S::Finding>> {
-        let code = study.code();
+        let code = study.code().name();
         let place = self.codes.iter().position(|own| own.name == code);
         let probed = place.and_then(|place| self.probes().get(place));
         let unprobed = probed.and_then(|probed| probed.as_ref().err());

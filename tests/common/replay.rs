@@ -46,10 +46,11 @@ pub fn install(bench: &Bench, disturb: impl Fn(&Case) -> Disturbance) -> usize {
 /// Lets the fake know the runs of the rings of spheres that are recorded; returns how many there are.
 pub fn install_rings(bench: &Bench) -> usize {
     let stacks = [3, 4].map(|bodies| Profile::Quick.stacks(Power::Linear, bodies));
+    let settled = yade().as_declared().expect("nothing is left out");
     let plans = stacks.concat();
     let plans = plans
         .iter()
-        .map(|stack| plan(yade(), stack, yade().convention()));
+        .map(|stack| plan(&settled, stack, settled.convention()));
     let cases: Vec<Case> = plans.flat_map(|plan| plan.cases).collect();
     for case in &cases {
         let series = compress_stack(case, || true).expect("a finite series");
@@ -66,7 +67,8 @@ pub fn install_rings(bench: &Bench) -> usize {
 /// Cases and series of the quick profile, by the native DEM with the contact convention of YADE.
 fn quick_profile() -> &'static [(Case, String)] {
     static RUNS: LazyLock<Vec<(Case, String)>> = LazyLock::new(|| {
-        let plans = Profile::Quick.measurements(&[yade()]);
+        let yade = yade().as_declared().expect("nothing is left out");
+        let plans = Profile::Quick.measurements(&[yade]);
         let cases = plans.into_iter().flat_map(|plan| plan.cases);
         let runs = cases.map(|case| {
             let series = compress_stack(&case, || true).expect("a finite series");

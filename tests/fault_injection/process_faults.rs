@@ -239,7 +239,7 @@ fn install_rougher(insides: &Path, workload: &Workload, rougher: f64) {
         let path = insides.join(format!("{}.csv", address(case)));
         fs::write(path, series.to_csv()).expect("a series");
     }
-    let asked = witness_test(yade.convention());
+    let asked = witness_test(yade.declaration().convention);
     let mut changed = asked;
     changed.floor_friction *= rougher;
     replay::install_motion_as(insides, &asked, &changed);

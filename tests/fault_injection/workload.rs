@@ -99,7 +99,8 @@ impl Workload {
         );
         let cases = frictions.iter().flat_map(|&friction| {
             let stack = Stack::paper(friction, stiffness);
-            plan(code, &stack, code.convention()).cases
+            let code = code.as_declared().expect("nothing is left out");
+            plan(&code, &stack, code.convention()).cases
         });
         let start = Instant::now();
         let output = place.process(&line).output().expect("it runs");

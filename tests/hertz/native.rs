@@ -2,13 +2,13 @@
 
 use super::Problem;
 use super::at_rest::onset_and_peak;
-use tristack::code::Code;
+use tristack::code::SettledCode;
 use tristack::model::TangentialHistory;
 use tristack::study::yield_force::plan;
 
 /// Deviations of slip onset and peak, extrapolated over the wall speed, from their limits, in F + 3.
 fn deviations(own: &Problem) -> [f64; 2] {
-    let measurement = plan(Code::NATIVE, &own.stack(), own.convention());
+    let measurement = plan(&SettledCode::native(), &own.stack(), own.convention());
     let limit = &measurement.limit;
     assert!(measurement.is_gentle);
     let limits = [limit.slip_onset.unwrap(), limit.peak_force.unwrap()];

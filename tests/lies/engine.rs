@@ -1,7 +1,7 @@
 //! Engines with the conventions of the codes, honest or not, and the verdict on them.
 
 use crate::lie::{Kind, Lie, LyingLaw};
-use tristack::code::{Code, Identity, Provenance, Run};
+use tristack::code::{Code, Identity, Provenance, Run, SettledCode};
 use tristack::dem::{SpringDashpot, compress_stack_with};
 use tristack::model::{CRITICAL_FRICTION, Case, ContactConvention, Stack};
 use tristack::runs::RunSummary;
@@ -32,19 +32,24 @@ impl Honest {
     /// The conventions of native, LIGGGHTS, YADE's plane floor and LAMMPS, at every stack.
     pub fn all() -> Vec<Self> {
         let names = ["native", "liggghts", "yade-wall", "lammps"];
-        let codes = names.map(|name| Code::named(name).expect("it is built in"));
+        let codes = names.map(|name| {
+            let code = Code::named(name).expect("it is built in");
+            code.as_declared().expect("nothing is left out")
+        });
         let all = STACKS.iter().flat_map(|&(friction, stiffness)| {
-            codes.map(|code| Self::new(code, &Stack::paper(friction, stiffness)))
+            codes
+                .each_ref()
+                .map(|code| Self::new(code, &Stack::paper(friction, stiffness)))
         });
         all.collect()
     }
 
-    pub fn new(code: Code, stack: &Stack) -> Self {
+    pub fn new(code: &SettledCode, stack: &Stack) -> Self {
         Self::with(code, stack, code.convention())
     }
 
     /// The same with any convention.
-    pub fn with(code: Code, stack: &Stack, convention: ContactConvention) -> Self {
+    pub fn with(code: &SettledCode, stack: &Stack, convention: ContactConvention) -> Self {
         let mut honest = Self {
             measurement: plan(code, stack, convention),
             tolerance: f64::NAN,
@@ -58,7 +63,9 @@ impl Honest {
         let stack = &self.measurement.stack;
         format!(
             "{}, mu {}, stiffness {}",
-            self.measurement.code, stack.floor_friction, stack.stiffness
+            self.measurement.code.name(),
+            stack.floor_friction,
+            stack.stiffness
         )
     }
 
@@ -120,7 +127,7 @@ impl Honest {
             series: Series::new(rows, case).expect("rows at their steps"),
             provenance: Provenance::now(
                 Identity {
-                    code: self.measurement.code.to_string(),
+                    code: self.measurement.code.name().to_string(),
                     version: "lying".to_owned(),
                     package: None,
                     program_hash: None,

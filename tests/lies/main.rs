@@ -13,7 +13,7 @@ use lie::{Kind, Lie};
 use std::collections::BTreeSet;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
-use tristack::code::Code;
+use tristack::code::SettledCode;
 use tristack::model::{ContactConvention, Stack};
 use tristack::series::Law;
 use tristack::study::Verdict;
@@ -105,8 +105,8 @@ fn nobody_who_is_honest_is_accused() {
 #[test]
 fn what_agreed_once_agrees_no_more() {
     let at = |mu, stiffness| {
-        let native = Code::named("native").expect("it is built in");
-        Honest::new(native, &Stack::paper(mu, stiffness))
+        let native = SettledCode::native();
+        Honest::new(&native, &Stack::paper(mu, stiffness))
     };
     let gravity_twice = Lie::of(Kind::Gravity, 1.0);
     let soft = at(0.3, 1e2);
@@ -131,10 +131,10 @@ fn what_agreed_once_agrees_no_more() {
 /// from all of it.
 #[test]
 fn a_spring_that_nothing_turns_lets_cylinders_slip_by_its_whole_force() {
-    let native = Code::named("native").expect("it is built in");
+    let native = SettledCode::native();
     for (mu, stiffness) in engine::STACKS {
         let stack = Stack::paper(mu, stiffness);
-        let honest = Honest::with(native, &stack, ContactConvention::PAPER);
+        let honest = Honest::with(&native, &stack, ContactConvention::PAPER);
         let said = |part: f64| honest.judge(&Lie::of(Kind::CylinderFriction, part));
         // At a wall that moves, ringing adds a part to the force.
         let enough = said(0.1);
@@ -158,9 +158,9 @@ const OPTIONAL: [&str; 9] = [
 /// contradict it.
 #[test]
 fn an_engine_that_leaves_columns_out_gains_no_agreement() {
-    let native = Code::named("native").expect("it is built in");
+    let native = SettledCode::native();
     for (mu, stiffness) in engine::STACKS {
-        let honest = Honest::new(native, &Stack::paper(mu, stiffness));
+        let honest = Honest::new(&native, &Stack::paper(mu, stiffness));
         let runs = honest.runs(&Lie::none());
         let each = OPTIONAL.iter().map(std::slice::from_ref);
         for absent in each.chain([&OPTIONAL[..]]) {
@@ -176,8 +176,8 @@ fn an_engine_that_leaves_columns_out_gains_no_agreement() {
 /// What positions would show, and the forces do not.
 #[test]
 fn a_lie_that_only_positions_show_does_not_agree_without_them() {
-    let native = Code::named("native").expect("it is built in");
-    let honest = Honest::new(native, &Stack::paper(0.3, 1e2));
+    let native = SettledCode::native();
+    let honest = Honest::new(&native, &Stack::paper(0.3, 1e2));
     for lie in [
         Lie::of(Kind::MadeUp, 1.0),
         Lie::of(Kind::WallSpeed, 0.1),

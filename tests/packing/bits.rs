@@ -63,7 +63,7 @@ fn cylinders(convention: &ContactConvention) -> Material {
 fn conventions() -> [ContactConvention; 3] {
     let built_in = |name| Code::named(name).expect("it is built in");
     let codes = [Code::NATIVE, built_in("liggghts"), built_in("lammps")];
-    codes.map(|code| code.convention())
+    codes.map(|code| code.declaration().convention)
 }
 
 #[test]

@@ -162,7 +162,7 @@ fn a_micro_test_with_a_number_that_is_none_is_not_put() {
         let directory = tempfile::tempdir().expect("a directory");
         let interrupt = Interrupt::new();
         let mut test = ContactTest {
-            convention: name.convention(),
+            convention: name.declaration().convention,
             ..short_test()
         };
         test.initial_motions[0].spin = f64::INFINITY;

@@ -7,7 +7,7 @@ mod validator;
 use common::{Bench, json, records, standard_output};
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
-use tristack::code::{Code, Task, witness_test};
+use tristack::code::{SettledCode, Task, witness_test};
 use tristack::dem::{compress_stack, run_contact_test};
 use tristack::model::{Case, ContactConvention, Law, Preparation, Pyramid, SideWalls, Stack};
 use tristack::study::yield_force::plan;
@@ -115,7 +115,7 @@ fn manifests_fit_theirs_and_mistakes_do_not() {
 
 fn case() -> Case {
     plan(
-        Code::NATIVE,
+        &SettledCode::native(),
         &Stack::paper(0.3, 1e2),
         ContactConvention::TURNING,
     )

@@ -2,7 +2,7 @@
 
 use super::{Seed, marked, scenes};
 use std::path::Path;
-use tristack::code::{Code, Task};
+use tristack::code::{Code, SettledCode, Task};
 use tristack::model::{Case, PartialCase, Preparation, SideWalls, Stack};
 use tristack::study::yield_force::plan;
 
@@ -68,12 +68,7 @@ pub fn seeds() -> Vec<Seed> {
         sampling = { coarse_interval = 10.0, fine_from_travel = 0.6, fine_interval = 2.0 }\n";
     let partial_walls = "[stack]\nmu = 0.3\nkappa = 1.5\n[protocol.preparation]\nkind = \"side-walls\"\npush = 0.01\n";
     let stack = Stack::paper(0.3, 1e3);
-    let planned = plan(
-        Code::named("yade").expect("it is built in"),
-        &stack,
-        Code::named("yade").expect("it is built in").convention(),
-    )
-    .cases;
+    let planned = plan(&yade(), &stack, yade().convention()).cases;
     let planned = planned
         .into_iter()
         .enumerate()
@@ -93,4 +88,9 @@ pub fn seeds() -> Vec<Seed> {
         .into_iter()
         .chain(planned)
         .collect()
+}
+
+fn yade() -> SettledCode {
+    let code = Code::named("yade").expect("it is built in");
+    code.as_declared().expect("nothing is left out")
 }

@@ -33,7 +33,7 @@ impl CodeOptions {
             accepted: format!(
                 "codes of the same power as --law, among them {}: the {} of {other}",
                 names.join(", "),
-                other.convention().law
+                other.law()
             ),
         })
     }

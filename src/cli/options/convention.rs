@@ -2,7 +2,7 @@
 
 use super::flag::as_flag;
 use super::numbers::number;
-use crate::code::Code;
+use crate::code::SettledCode;
 use crate::model::{
     Arms, ContactArms, ContactConvention, HistoryUpdate, InvalidValue, Law, Power,
     TangentialHistory, TangentialStiffening,
@@ -140,14 +140,14 @@ impl ConventionOptions {
     }
 
     /// The convention of `code` for stacks of so many `bodies`, with the given parts in place of its own.
-    pub fn of(&self, code: Code, bodies: u8) -> Result<ContactConvention, InvalidValue> {
+    pub fn of(&self, code: &SettledCode, bodies: u8) -> Result<ContactConvention, InvalidValue> {
         self.over(code, |arms, law| {
             ContactConvention::usual(arms, law, bodies)
         })
     }
 
     /// The same of contacts that belong to no stack, or to one of which nothing else is known.
-    pub fn of_contacts(&self, code: Code) -> Result<ContactConvention, InvalidValue> {
+    pub fn of_contacts(&self, code: &SettledCode) -> Result<ContactConvention, InvalidValue> {
         self.over(code, |arms, law| ContactConvention {
             arms,
             law,
@@ -158,7 +158,7 @@ impl ConventionOptions {
     /// The given parts in place of those of `code`; the others of a code that takes any convention are `usual` with them.
     fn over(
         &self,
-        code: Code,
+        code: &SettledCode,
         usual: impl Fn(Arms, Law) -> ContactConvention,
     ) -> Result<ContactConvention, InvalidValue> {
         let own = code.convention();
@@ -167,7 +167,7 @@ impl ConventionOptions {
             floor: replaced(own.arms.floor, self.floor_arm, self.floor_kinematic_arm),
         };
         let law = self.law.over(own.law);
-        let base = match code.accepts_any_convention() {
+        let base = match code.name().accepts_any_convention() {
             true => usual(arms, law),
             false => ContactConvention { arms, law, ..own },
         };

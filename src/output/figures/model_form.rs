@@ -6,9 +6,9 @@ use super::codes;
 use super::panel::{Anchor, Panel, Sample};
 use super::sheet::Sheet;
 use super::style::{GUIDE, Mark, STIFFNESS_STROKES};
-use crate::code::Code;
+use crate::code::{Code, SettledCode};
 use crate::model::{CRITICAL_FRICTION, PAPER_STIFFNESS_RATIO};
-use crate::paper::reproduction::{Curves, codes_by_limit};
+use crate::paper::reproduction::Curves;
 use crate::study::yield_force::{Judgement, PAPER_STIFFNESSES};
 
 /// Panels with curves above this value, in percent, have the finer axis.
@@ -16,13 +16,13 @@ const SMALL: f64 = -2.0;
 
 /// Difference to the yield force under the paper's convention, by theory and by the codes: a panel for every limit.
 pub(super) fn model_form(judgements: &[Judgement], curves: &Curves) -> Figure {
-    let groups = codes_by_limit();
+    let groups = &curves.codes_by_limit;
     let panels: Vec<Panel> = groups
         .iter()
         .map(|codes| arms_panel(codes, judgements, curves))
         .collect();
-    let letters = ('a'..).zip(&groups).map(|(letter, codes)| {
-        let [pair, floor] = arms(codes[0]).map(|arm| arm.replace('−', "-"));
+    let letters = ('a'..).zip(groups).map(|(letter, codes)| {
+        let [pair, floor] = arms(&codes[0]).map(|arm| arm.replace('−', "-"));
         match pair == floor {
             true => format!("({letter}) $r_1 = {pair}$ between cylinders and at the floor"),
             false => {
@@ -43,7 +43,7 @@ pub(super) fn model_form(judgements: &[Judgement], curves: &Curves) -> Figure {
 }
 
 /// The arm coefficients of pair and floor in words.
-fn arms(code: Code) -> [String; 2] {
+fn arms(code: &SettledCode) -> [String; 2] {
     let arms = code.convention().arms;
     [arms.pair.torque, arms.floor.torque].map(|arm| {
         let text = if arm == -0.5 {
@@ -55,9 +55,9 @@ fn arms(code: Code) -> [String; 2] {
     })
 }
 
-fn arms_panel(codes: &[Code], judgements: &[Judgement], curves: &Curves) -> Panel {
+fn arms_panel(codes: &[SettledCode], judgements: &[Judgement], curves: &Curves) -> Panel {
     let own = curves.model_form.iter();
-    let own = own.filter(|point| point.code == codes[0]);
+    let own = own.filter(|point| point.code == codes[0].name());
     let lowest = own
         .map(|point| 100.0 * point.difference)
         .fold(0.0, f64::min);
@@ -68,10 +68,11 @@ fn arms_panel(codes: &[Code], judgements: &[Judgement], curves: &Curves) -> Pane
         let axis = Axis::linear(LABEL, (-25.0, 5.0), 5.0, 0);
         (axis, (0.05, 0.5), (0.1, 3.2))
     };
-    let mut panel = panel(axis, codes, judgements, curves);
+    let names: Vec<Code> = codes.iter().map(SettledCode::name).collect();
+    let mut panel = panel(axis, &names, judgements, curves);
     panel.key_at(key.0, key.1);
     panel.words(
-        format!("arms {}", arms(codes[0]).join(", ")),
+        format!("arms {}", arms(&codes[0]).join(", ")),
         words,
         Anchor::Start,
     );

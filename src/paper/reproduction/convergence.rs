@@ -1,7 +1,7 @@
 //! Supplement, figure on convergence: the yield force over wall speed and time step, at μ = 0.2 and 1/ε = 1e4.
 
 use super::case_at_speed;
-use crate::code::Code;
+use crate::code::{Code, SettledCode};
 use crate::model::{Case, Stack};
 use crate::runs::{RunError, RunSummary, Workload};
 use crate::study::Campaign;
@@ -78,31 +78,31 @@ fn time_steps(code: Code) -> &'static [f64] {
 }
 
 /// The runs of one code: those over the wall speed first.
-fn workload(code: Code) -> Workload {
-    let speeds = wall_speeds(code).iter();
+fn workload(code: &SettledCode) -> Workload {
+    let speeds = wall_speeds(code.name()).iter();
     let speeds = speeds.filter_map(|&speed| case(code, speed, PAPER_TIME_STEP));
-    let steps = time_steps(code).iter();
+    let steps = time_steps(code.name()).iter();
     let steps = steps.filter_map(|&step| case(code, FAST_WALL, step));
     Workload {
-        code,
+        code: code.name(),
         tasks: speeds.chain(steps).collect(),
     }
 }
 
-fn case(code: Code, wall_speed: f64, time_step: f64) -> Option<Case> {
+fn case(code: &SettledCode, wall_speed: f64, time_step: f64) -> Option<Case> {
     let mut case = case_at_speed(code, convergence_stack(), wall_speed, time_step)?;
     case.protocol.sampling.fine_interval = FINE_INTERVAL;
     Some(case)
 }
 
 /// The runs of the study, code by code.
-pub(crate) fn convergence_workloads(codes: &[Code]) -> Vec<Workload> {
-    codes.iter().map(|&code| workload(code)).collect()
+pub(crate) fn convergence_workloads(codes: &[SettledCode]) -> Vec<Workload> {
+    codes.iter().map(workload).collect()
 }
 
 /// Runs the study; also returns every summary.
 pub fn converge(campaign: &Campaign) -> (Convergence, Vec<RunSummary>) {
-    let workloads = convergence_workloads(&campaign.names());
+    let workloads = convergence_workloads(&campaign.settled());
     let results: Vec<Vec<Result<RunSummary, RunError>>> = campaign.read(&workloads);
     let mut study = Convergence {
         wall_speeds: Vec::new(),
@@ -140,7 +140,7 @@ mod tests {
 
     #[test]
     fn every_run_of_the_study_is_valid_and_short_enough_for_every_day() {
-        for workload in convergence_workloads(&Code::of_power(Power::Linear)) {
+        for workload in convergence_workloads(&SettledCode::of_power(Power::Linear)) {
             let native = workload.code == Code::NATIVE;
             assert_eq!(workload.tasks.len(), if native { 11 } else { 9 });
             for case in &workload.tasks {

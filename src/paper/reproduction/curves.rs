@@ -1,6 +1,6 @@
 //! Curves of theory over the whole range of the figures.
 
-use crate::code::Code;
+use crate::code::{Code, SettledCode};
 use crate::model::{CRITICAL_FRICTION, ContactConvention, PAPER_BODIES, Power, Stack};
 use crate::study::yield_force::PAPER_STIFFNESSES;
 use crate::theory::{Predictions, quasistatic_limit};
@@ -74,6 +74,8 @@ pub struct Curves {
     pub over_stiffness: Vec<TheoryPoint>,
     /// Over the friction, at the stiffnesses of the paper, for every code with another convention.
     pub model_form: Vec<ModelFormPoint>,
+    /// The codes whose limit is not the paper's, because of their arms or of springs that turn, grouped by these.
+    pub codes_by_limit: Vec<Vec<SettledCode>>,
 }
 
 /// The frictions of the curves, the critical one included.
@@ -87,7 +89,8 @@ fn frictions() -> Vec<f64> {
 }
 
 /// Computes every curve.
-pub fn curves() -> Curves {
+pub fn curves(codes: &[SettledCode]) -> Curves {
+    let codes_by_limit = codes_by_limit(codes);
     let over_friction = PAPER_STIFFNESSES.into_iter().flat_map(|stiffness| {
         let points = frictions().into_iter();
         points.map(move |mu| TheoryPoint::new(mu, stiffness))
@@ -102,34 +105,35 @@ pub fn curves() -> Curves {
     Curves {
         over_friction: over_friction.collect(),
         over_stiffness: over_stiffness.collect(),
-        model_form: model_form(),
+        model_form: model_form(&codes_by_limit),
+        codes_by_limit,
     }
 }
 
 /// The codes whose limit is not the paper's, because of their arms or of springs that turn, grouped by these.
-pub(crate) fn codes_by_limit() -> Vec<Vec<Code>> {
-    let limit = |code: Code| {
+fn codes_by_limit(codes: &[SettledCode]) -> Vec<Vec<SettledCode>> {
+    let limit = |code: &SettledCode| {
         let convention = code.stack_convention(Power::Linear, PAPER_BODIES);
         (convention.arms, convention.history_update.turns())
     };
-    let mut groups: Vec<Vec<Code>> = Vec::new();
-    for code in Code::of_power(Power::Linear) {
+    let mut groups: Vec<Vec<SettledCode>> = Vec::new();
+    for code in codes {
         let own = groups
             .iter_mut()
-            .find(|group| limit(group[0]) == limit(code));
+            .find(|group| limit(&group[0]) == limit(code));
         match own {
-            Some(group) => group.push(code),
-            None => groups.push(vec![code]),
+            Some(group) => group.push(code.clone()),
+            None => groups.push(vec![code.clone()]),
         }
     }
-    groups.retain(|group| limit(group[0]) != limit(Code::NATIVE));
+    groups.retain(|group| limit(&group[0]) != limit(&SettledCode::native()));
     groups
 }
 
 /// Differences of one code for every group of [`codes_by_limit`].
-fn model_form() -> Vec<ModelFormPoint> {
+fn model_form(groups: &[Vec<SettledCode>]) -> Vec<ModelFormPoint> {
     let mut points = Vec::new();
-    for code in codes_by_limit().into_iter().map(|group| group[0]) {
+    for code in groups.iter().map(|group| &group[0]) {
         let convention = code.convention();
         for stiffness in PAPER_STIFFNESSES {
             for mu in frictions().into_iter().step_by(2) {
@@ -138,7 +142,7 @@ fn model_form() -> Vec<ModelFormPoint> {
                 let paper = quasistatic_limit(&stack, &ContactConvention::PAPER);
                 let both = own.yield_force.zip(paper.yield_force);
                 points.extend(both.map(|(own, paper)| ModelFormPoint {
-                    code,
+                    code: code.name(),
                     mu,
                     stiffness,
                     difference: (own - paper) / (paper + 3.0),

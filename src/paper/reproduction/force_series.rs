@@ -1,7 +1,7 @@
 //! Supplement, figure on the yield force: f(t) at μ = 0.2, 1/ε = 100, at the paper's literal settings.
 
 use super::case_at_speed;
-use crate::code::{Code, Identity, Run};
+use crate::code::{Code, Identity, Run, SettledCode};
 use crate::model::{Case, ContactConvention, Stack};
 use crate::runs::{Reading, RunError, RunSummary, Workload};
 use crate::study::Campaign;
@@ -61,7 +61,12 @@ pub(crate) fn force_series_stack() -> Stack {
 /// If the run fails.
 pub fn force_series(campaign: &Campaign) -> Result<(ForceSeries, RunSummary), RunError> {
     let stack = force_series_stack();
-    let case = case_at_speed(Code::NATIVE, stack, PAPER_WALL_SPEED, PAPER_TIME_STEP);
+    let case = case_at_speed(
+        &SettledCode::native(),
+        stack,
+        PAPER_WALL_SPEED,
+        PAPER_TIME_STEP,
+    );
     let workload = Workload {
         code: Code::NATIVE,
         tasks: case.into_iter().collect(),

@@ -2,7 +2,7 @@
 
 use super::scaling::{Exponent, SCALING_STIFFNESSES, fitted_exponents};
 use super::{is_same, judged};
-use crate::code::Code;
+use crate::code::SettledCode;
 use crate::model::{CRITICAL_FRICTION, PAPER_BODIES, Power, Stack};
 use crate::study::Campaign;
 use crate::study::yield_force::{Judgement, Measurement, Profile, plan};
@@ -29,7 +29,7 @@ pub struct Laws {
 impl Laws {
     /// The yield forces by the codes of `campaign`.
     pub(super) fn new(campaign: &Campaign) -> Self {
-        let [curves, scaling] = measurements(&campaign.names());
+        let [curves, scaling] = measurements(&campaign.settled());
         let mut all = curves.clone();
         let further = scaling.iter();
         all.extend(
@@ -49,12 +49,12 @@ impl Laws {
 }
 
 /// The measurements of the yield curves, and those at μ_c, of every stack that yields.
-pub(super) fn measurements(codes: &[Code]) -> [Vec<Measurement>; 2] {
+pub(super) fn measurements(codes: &[SettledCode]) -> [Vec<Measurement>; 2] {
     let curves =
         Profile::Quick.measurements_of(&Profile::Quick.stacks(POWER, PAPER_BODIES), codes, POWER);
     let stacks = SCALING_STIFFNESSES.map(critical_stack);
-    let one_a_code = codes.iter().filter(|code| code.is_first_variant());
-    let scaling = one_a_code.flat_map(|&code| {
+    let one_a_code = codes.iter().filter(|code| code.name().is_first_variant());
+    let scaling = one_a_code.flat_map(|code| {
         let convention = code.stack_convention(POWER, PAPER_BODIES);
         stacks.map(|stack| plan(code, &stack, convention))
     });
@@ -72,7 +72,7 @@ fn critical_stack(stiffness: f64) -> Stack {
 }
 
 fn critical() -> Vec<(f64, Option<f64>)> {
-    let convention = Code::NATIVE.stack_convention(POWER, PAPER_BODIES);
+    let convention = SettledCode::native().stack_convention(POWER, PAPER_BODIES);
     let (first, last) = (
         SCALING_STIFFNESSES[0],
         SCALING_STIFFNESSES[SCALING_STIFFNESSES.len() - 1],

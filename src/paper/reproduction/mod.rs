@@ -10,7 +10,6 @@ mod spheres;
 
 pub use convergence::{Convergence, ConvergencePoint, converge};
 pub(crate) use convergence::{FAST_WALL, WALL_SPEEDS, convergence_stack, convergence_workloads};
-pub(crate) use curves::codes_by_limit;
 pub use curves::{Curves, ModelFormPoint, TheoryPoint, curves};
 pub(crate) use force_series::force_series_stack;
 pub use force_series::{ForceSeries, force_series};
@@ -21,7 +20,7 @@ pub use snapshots::{Snapshots, snapshots};
 pub(crate) use spheres::SPHERES_STIFFNESSES;
 pub use spheres::{BodiesCurve, Spheres};
 
-use crate::code::{Code, Provenance};
+use crate::code::{Code, Provenance, SettledCode};
 use crate::model::{Case, HistoryUpdate, PAPER_BODIES, PAPER_STIFFNESS_RATIO, Power, Stack};
 use crate::paper::published::{Checkout, Published};
 use crate::runs::{Progress, RunError, RunSummary, SelectedCode, Settings, Workload};
@@ -125,7 +124,9 @@ pub(crate) fn reproduce(
 ) -> Result<Option<Reproduction>, ReproductionError> {
     let settings = scope.settings;
     let campaign = Campaign::new(scope.codes, settings, progress);
-    let (theory, measured) = rayon::join(Theory::new, || Measured::new(scope, &campaign));
+    let codes = with_the_rest(&campaign.settled());
+    let (theory, measured) =
+        rayon::join(|| Theory::new(&codes), || Measured::new(scope, &campaign));
     let Some(measured) = measured? else {
         return Ok(None);
     };
@@ -168,6 +169,16 @@ pub(crate) fn reproduce(
     }))
 }
 
+/// Every code with linear springs: as it takes part in `settled`, or else as its manifest declares it.
+fn with_the_rest(settled: &[SettledCode]) -> Vec<SettledCode> {
+    let all = Code::of_power(Power::Linear).into_iter();
+    let settled = all.filter_map(|code| {
+        let taking_part = settled.iter().find(|own| own.name() == code);
+        taking_part.cloned().or_else(|| code.as_declared())
+    });
+    settled.collect()
+}
+
 /// The part that needs no runs.
 struct Theory {
     maps: [RegimeMap; 3],
@@ -177,7 +188,7 @@ struct Theory {
 }
 
 impl Theory {
-    fn new() -> Self {
+    fn new(codes: &[SettledCode]) -> Self {
         let maps = RegimeMap::standard(PAPER_STIFFNESS_RATIO, HistoryUpdate::Fixed);
         Self {
             survey: SurveyPlan::new(
@@ -185,7 +196,7 @@ impl Theory {
                 &examined_stacks(HistoryUpdate::Fixed),
                 HistoryUpdate::Fixed,
             ),
-            curves: curves(),
+            curves: curves(codes),
             spheres: Spheres::new(),
             maps,
         }
@@ -208,7 +219,7 @@ impl Measured {
     /// Carries out all runs; `None` after an interrupt.
     fn new(scope: &Scope, campaign: &Campaign) -> Result<Option<Self>, RunError> {
         let interrupted = || scope.settings.interrupt.requested();
-        let parts = planned(scope);
+        let parts = planned(scope, &campaign.settled());
         let judgements = campaign.carry_out(every_measurement(&parts));
         if interrupted() {
             return Ok(None);
@@ -219,7 +230,7 @@ impl Measured {
         }
         let (force_series, summary) = force_series(campaign)?;
         summaries.push(summary);
-        let preparation = preparation_studies(campaign, &campaign.names());
+        let preparation = preparation_studies(campaign, &campaign.settled());
         if interrupted() {
             return Ok(None);
         }
@@ -230,7 +241,7 @@ impl Measured {
         let mut provenances: Vec<Provenance> = provenances_of(&judgements).collect();
         provenances.extend(runs.chain(prepared).cloned());
         let [yield_curves, scaling, literal] = parts.map(|part| judged(&part, &judgements));
-        let trajectories = campaign.carry_out(trajectories(scope.codes));
+        let trajectories = campaign.carry_out(trajectories(&campaign.settled()));
         Ok(Some(Self {
             yield_curves,
             scaling,
@@ -251,7 +262,12 @@ fn provenances_of(judgements: &[Judgement]) -> impl Iterator<Item = Provenance> 
 }
 
 /// The run of `stack` with a given wall speed; `None` where nothing yields.
-fn case_at_speed(code: Code, stack: Stack, wall_speed: f64, time_step: f64) -> Option<Case> {
+fn case_at_speed(
+    code: &SettledCode,
+    stack: Stack,
+    wall_speed: f64,
+    time_step: f64,
+) -> Option<Case> {
     let convention = code.stack_convention(Power::Linear, stack.bodies);
     let limit = quasistatic_limit(&stack, &convention);
     Some(Case {
@@ -266,9 +282,9 @@ fn boundary_points(maps: &[RegimeMap]) -> Vec<BoundaryPoint> {
     maps.iter().flat_map(of_map).collect()
 }
 
-fn trajectories(codes: &[SelectedCode]) -> Vec<Trajectory> {
-    let names = codes.iter().map(|selected| selected.name);
-    let external = names.filter(|name| !name.accepts_any_convention());
+fn trajectories(codes: &[SettledCode]) -> Vec<Trajectory> {
+    let codes = codes.iter();
+    let external = codes.filter(|code| !code.name().accepts_any_convention());
     let planned = external.map(|code| {
         let convention = code.convention();
         let stack = trajectory_stack(PAPER_BODIES, convention.law.power);
@@ -278,16 +294,15 @@ fn trajectories(codes: &[SelectedCode]) -> Vec<Trajectory> {
 }
 
 /// The measurements behind Fig. 2(a) and Fig. 2(b), and those at the paper's literal settings.
-fn planned(scope: &Scope) -> [Vec<Measurement>; 3] {
-    let codes: Vec<Code> = scope.codes.iter().map(|code| code.name).collect();
-    let [yield_curves, scaling, mut literal] = all_measurements(&codes);
+fn planned(scope: &Scope, codes: &[SettledCode]) -> [Vec<Measurement>; 3] {
+    let [yield_curves, scaling, mut literal] = all_measurements(codes);
     if !scope.literal {
         literal.retain(|row| row.stack == convergence_stack());
     }
     [yield_curves, scaling, literal]
 }
 
-fn all_measurements(codes: &[Code]) -> [Vec<Measurement>; 3] {
+fn all_measurements(codes: &[SettledCode]) -> [Vec<Measurement>; 3] {
     [
         Profile::Standard.measurements(codes),
         scaling_measurements(codes),
@@ -307,7 +322,7 @@ fn every_measurement(parts: &[Vec<Measurement>]) -> Vec<Measurement> {
 }
 
 fn is_same(left: &Measurement, right: &Measurement) -> bool {
-    (left.code, left.stack, left.method) == (right.code, right.stack, right.method)
+    (&left.code, left.stack, left.method) == (&right.code, right.stack, right.method)
 }
 
 /// The `judgements` of the measurements in `part`, in the order of `part`.
@@ -330,7 +345,7 @@ pub(crate) fn summaries_to_record(
 ) -> Result<Vec<RunSummary>, RunError> {
     let campaign = Campaign::new(std::slice::from_ref(selected), settings, progress);
     let mut tasks: Vec<Case> = Vec::new();
-    for case in cases_to_record(&campaign, selected.name)? {
+    for case in cases_to_record(&campaign)? {
         if !tasks.contains(&case) {
             tasks.push(case);
         }
@@ -340,18 +355,24 @@ pub(crate) fn summaries_to_record(
     results.into_iter().flatten().collect()
 }
 
-fn cases_to_record(campaign: &Campaign, code: Code) -> Result<Vec<Case>, RunError> {
+fn cases_to_record(campaign: &Campaign) -> Result<Vec<Case>, RunError> {
+    let codes = campaign.settled();
     let cases = |measurements: &[Vec<Measurement>]| -> Vec<Case> {
         let all = measurements.iter().flatten();
         all.flat_map(|measurement| measurement.cases.clone())
             .collect()
     };
-    if !code.has_power(Power::Linear) {
-        return Ok(cases(&laws::measurements(&[code])));
+    if !codes
+        .iter()
+        .all(|code| code.name().has_power(Power::Linear))
+    {
+        return Ok(cases(&laws::measurements(&codes)));
     }
-    let convergence = convergence_workloads(&[code]).into_iter();
+    let convergence = convergence_workloads(&codes).into_iter();
     let mut all: Vec<Case> = convergence.flat_map(|workload| workload.tasks).collect();
-    all.extend(cases(&all_measurements(&[code])));
-    all.extend(preparation_cases(campaign, code)?);
+    all.extend(cases(&all_measurements(&codes)));
+    for code in &codes {
+        all.extend(preparation_cases(campaign, code)?);
+    }
     Ok(all)
 }

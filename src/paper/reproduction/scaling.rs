@@ -1,6 +1,6 @@
 //! Fig. 2(b): scaling of the yield force with the stiffness, below, at and above the critical friction.
 
-use crate::code::Code;
+use crate::code::{Code, SettledCode};
 use crate::model::{CRITICAL_FRICTION, PAPER_BODIES, Power, Stack};
 use crate::study::MAX_TOLERANCE;
 use crate::study::Verdict;
@@ -39,13 +39,13 @@ pub struct Exponent {
 }
 
 /// The measurements for Fig. 2(b): every stack that yields, by each of the `codes`.
-pub fn scaling_measurements(codes: &[Code]) -> Vec<Measurement> {
+pub fn scaling_measurements(codes: &[SettledCode]) -> Vec<Measurement> {
     let stacks = SCALING_FRICTIONS
         .iter()
         .flat_map(|&mu| SCALING_STIFFNESSES.map(|stiffness| Stack::paper(mu, stiffness)));
     let rows = stacks.flat_map(|stack| {
         let codes = codes.iter();
-        codes.map(move |&code| {
+        codes.map(move |code| {
             plan(
                 code,
                 &stack,
@@ -180,7 +180,7 @@ mod tests {
 
     #[test]
     fn stacks_that_do_not_yield_are_not_planned() {
-        let rows = scaling_measurements(&Code::of_power(Power::Linear));
+        let rows = scaling_measurements(&SettledCode::of_power(Power::Linear));
         assert!(rows.iter().all(|row| row.cases.len() == 5));
         assert!(rows.len() > 6 * 15);
     }

@@ -106,7 +106,7 @@ fn keep(place: &Scratch, report: &mut Report) -> io::Result<()> {
 
 /// The command that judges `code`, whose folder is `folder`.
 fn judged_by(code: Code, folder: &str) -> String {
-    let law = match code.convention().law.power {
+    let law = match code.law().power {
         Power::Linear => "",
         Power::Hertz => "--law hertz ",
         _ => return format!("tristack probe --codes {folder}"),
@@ -127,7 +127,7 @@ impl Check<'_> {
     fn go_through(&mut self) -> Option<()> {
         self.manifest();
         let installed = self.program()?;
-        let case = case(self.code.convention());
+        let case = case(self.code.declaration().convention);
         let Some(run) = self.stack(installed.as_ref(), &case) else {
             if Twin::makes(&case.convention) {
                 self.explain_explosion(installed.as_ref());
@@ -244,7 +244,7 @@ impl Check<'_> {
     /// A sphere on three, if there is a task for it: as it is, turned, mirrored and numbered otherwise.
     fn spheres(&mut self, installed: &dyn InstalledCode) {
         const NAME: &str = "task spheres";
-        let usual = spheres::case(self.code.convention(), Arrangement::default());
+        let usual = spheres::case(self.code.declaration().convention, Arrangement::default());
         let Some(case) = usual.filter(|_| self.code.check_task(TaskKind::Spheres).is_ok()) else {
             return;
         };
@@ -262,7 +262,7 @@ impl Check<'_> {
         let items = spheres::items(&run.series, &case, is_declared);
         self.report.items.extend(items);
         for (name, arrangement) in spheres::OTHERS {
-            let Some(other) = spheres::case(self.code.convention(), arrangement) else {
+            let Some(other) = spheres::case(self.code.declaration().convention, arrangement) else {
                 continue;
             };
             match self.try_run(installed, &other, name) {

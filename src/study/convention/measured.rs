@@ -243,6 +243,7 @@ fn contradiction(finding: &Finding) -> String {
 mod tests {
     use super::*;
     use crate::code::Provenance;
+    use crate::code::SettledCode;
     use crate::dem::run_contact_test;
     use crate::runs::Answer;
     use crate::series::{Motion, MotionRow};
@@ -268,8 +269,8 @@ mod tests {
         };
         Ok(Findings {
             provenance: Provenance::now(identity, String::new(), Vec::new(), 1, 1.0),
-            settled: Code::NATIVE.settled(),
-            measured: Code::NATIVE.settled(),
+            settled: SettledCode::native().settled().clone(),
+            measured: SettledCode::native().settled().clone(),
             findings: verdicts.iter().map(finding).collect(),
             few_digits: None,
         })

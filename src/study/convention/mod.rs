@@ -48,5 +48,5 @@ pub use passport::{ArmEffects, MeasuredKey, Passport, passport, reservations};
 pub(crate) use probe::ROUNDS;
 pub use probe::probe;
 pub(crate) use regression::fit_rows;
-pub(crate) use settle::settle_by_files;
-pub use settle::{settle, settle_by};
+pub(crate) use settle::settled_by_files;
+pub use settle::{Settling, settle, settled_by};

@@ -97,19 +97,22 @@ pub fn reservations(findings: &Findings) -> Vec<String> {
 /// The passport of `code`, of which the probe has shown `findings`.
 pub fn passport(code: Code, findings: &Findings) -> Passport<'_> {
     let measured = &findings.measured;
-    let others = Code::of_power(code.convention().law.power)
+    let others = Code::of_power(code.law().power)
         .into_iter()
         .filter(|other| other.is_built_in() && !other.accepts_any_convention() && *other != code);
     let alike = |keys: fn(ConventionKey) -> bool| -> Vec<Code> {
-        let same = others
-            .clone()
-            .filter(|other| has_same_limit(code, *other) && is_same(measured, *other, keys))
-            .filter(|other| {
-                turns(measured).is_some_and(|own| turns(&other.settled()) == Some(own))
-            });
+        let same = others.clone().filter(|other| {
+            let declared = other.as_declared();
+            has_same_limit(code, *other)
+                && declared.is_some_and(|other| {
+                    let other = other.settled();
+                    is_same(measured, other, keys)
+                        && turns(measured).is_some_and(|own| turns(other) == Some(own))
+                })
+        });
         same.collect()
     };
-    let damping = code.convention().law.damping;
+    let damping = code.law().damping;
     Passport {
         code,
         findings,
@@ -121,7 +124,7 @@ pub fn passport(code: Code, findings: &Findings) -> Passport<'_> {
             .into(),
         twins: alike(|key| key != ConventionKey::VelocityLag)
             .into_iter()
-            .filter(|other| other.convention().law.damping == damping)
+            .filter(|other| other.law().damping == damping)
             .collect(),
         same_arms: alike(ConventionKey::moves_limit),
     }
@@ -138,14 +141,13 @@ fn turns(settled: &Settled) -> Option<bool> {
 fn has_same_limit(code: Code, other: Code) -> bool {
     let [own, theirs] = [code, other].map(|code| Law {
         damping: DampingGrowth::default(),
-        ..code.convention().law
+        ..code.law()
     });
     own == theirs
 }
 
 /// Whether `measured` is the convention of the `other` code in all `keys`.
-fn is_same(measured: &Settled, other: Code, keys: fn(ConventionKey) -> bool) -> bool {
-    let other = other.settled();
+fn is_same(measured: &Settled, other: &Settled, keys: fn(ConventionKey) -> bool) -> bool {
     let mut keys = ConventionKey::ALL.into_iter().filter(|key| keys(*key));
     keys.all(|key| {
         let known = measured.reason(key).is_none() && other.reason(key).is_none();

@@ -2,43 +2,47 @@
 
 use super::measured::{Probed, probe_all, read_probe};
 use super::micro_tests::ask;
-use crate::code::{Code, InstalledCode, Interrupt, RunContext};
+use crate::code::{Code, InstalledCode, Interrupt, RunContext, SettledCode};
 use crate::runs::{Progress, SelectedCode, Settings};
 use std::path::Path;
 
-/// Settles the conventions of `codes` before anything is planned by them: what their manifests leave out is measured by
-/// their probes, from the store, live, or recorded. Returns what each of the codes that leave something out has shown.
+/// A code that is settled, and what its probe has shown; `None` for one whose manifest declares everything.
+pub type Settling = (SettledCode, Option<Probed>);
+
+/// The conventions of `codes`, in their order: what their manifests leave out is measured by their probes, from the store,
+/// live, or recorded.
 pub fn settle(
     codes: &[SelectedCode],
     settings: &Settings,
     progress: &dyn Progress,
-) -> Vec<(Code, Probed)> {
-    let open = codes.iter().filter(|selected| !selected.name.is_settled());
-    let settled = open.map(|selected| {
+) -> Vec<Settling> {
+    let settled = codes.iter().map(|selected| {
+        let name = selected.name;
+        if let Some(declared) = name.as_declared() {
+            return (declared, None);
+        }
         let probed = probe_all(std::slice::from_ref(selected), settings, progress);
         let probed = probed.into_iter().next();
-        probed.map(|probed| (selected.name, probed))
+        let settled = match &probed {
+            Some(probed) => settled_by(name, probed),
+            None => name.unmeasured("it has not been measured"),
+        };
+        (settled, probed)
     });
-    let settled: Vec<(Code, Probed)> = settled.flatten().collect();
-    for (code, probed) in &settled {
-        settle_by(*code, probed);
+    settled.collect()
+}
+
+/// The convention of `code` by its probe, wherever the answers come from.
+pub fn settled_by(code: Code, probed: &Probed) -> SettledCode {
+    match probed {
+        Ok(findings) => SettledCode::new(code, findings.settled.clone()),
+        Err(error) => code.unmeasured(&error.to_string()),
     }
-    settled
 }
 
-/// Settles the convention of `code` by its probe, wherever the answers come from.
-pub fn settle_by(code: Code, probed: &Probed) {
-    code.settle(match probed {
-        Ok(findings) => findings.settled.clone(),
-        Err(error) => code.declaration().unsettled(&error.to_string()),
-    });
-}
-
-/// Settles the convention of a code whose `results` were made elsewhere, if they answer all micro-tests; otherwise it
-/// stays open.
-pub(crate) fn settle_by_files(results: &dyn InstalledCode) {
+/// The convention of a code whose `results` were made elsewhere; `None` if they do not answer all micro-tests yet.
+pub(crate) fn settled_by_files(results: &dyn InstalledCode) -> Option<SettledCode> {
     let (code, nobody) = (results.name(), Interrupt::new());
-    if let Ok(record) = ask(results, &RunContext::new(Path::new("."), &nobody)) {
-        settle_by(code, &read_probe(code, record));
-    }
+    let record = ask(results, &RunContext::new(Path::new("."), &nobody)).ok()?;
+    Some(settled_by(code, &read_probe(code, record)))
 }

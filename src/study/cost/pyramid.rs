@@ -2,7 +2,7 @@
 
 use super::statistics::{fastest, median};
 use super::target::{BenchError, convention};
-use crate::code::{Code, InstalledCode, RunContext};
+use crate::code::{Code, InstalledCode, RunContext, SettledCode};
 use crate::model::{Power, Pyramid};
 use crate::series::PyramidRun;
 
@@ -18,7 +18,7 @@ pub struct PyramidBench {
     /// Numbers of rows; n rows are n(n + 1)/2 cylinders.
     pub rows: Vec<u32>,
     /// The codes, each of which must be able to build pyramids.
-    pub codes: Vec<Code>,
+    pub codes: Vec<SettledCode>,
     /// Steps times cylinders that are timed in every run.
     pub cylinder_steps: u64,
     /// Repeats of each run. Codes and pyramids take turns, so that other load on the machine slows down all of them.
@@ -48,7 +48,10 @@ impl Default for PyramidBench {
         let codes = Code::of_power(Power::Linear).into_iter();
         Self {
             rows: vec![44, 62, 99, 140],
-            codes: codes.filter(|code| code.builds_pyramids()).collect(),
+            codes: codes
+                .filter(|code| code.builds_pyramids())
+                .map(|code| code.unmeasured(""))
+                .collect(),
             cylinder_steps: 10_000_000,
             repeats: 5,
         }
@@ -63,20 +66,25 @@ impl PyramidBench {
     /// # Errors
     /// If a code is missing or does not build pyramids, or a run fails.
     pub fn measure(&self, context: &RunContext) -> Result<Vec<PyramidCost>, BenchError> {
-        let find = |name: &Code| name.find().ok_or(BenchError::Missing { code: *name });
-        let codes: Vec<_> = self.codes.iter().map(find).collect::<Result<_, _>>()?;
+        let find = |settled| {
+            let code = SettledCode::name(settled);
+            let found = code.find().ok_or(BenchError::Missing { code })?;
+            Ok((settled, found))
+        };
+        let codes = self.codes.iter().map(find);
+        let codes: Vec<_> = codes.collect::<Result<_, BenchError>>()?;
         let pairs = self.rows.iter();
         let pairs = pairs.flat_map(|&rows| codes.iter().map(move |code| (code, rows)));
-        let costs = pairs.map(|(code, rows)| (code, self.nothing_measured_yet(&**code, rows)));
+        let costs = pairs.map(|(code, rows)| (code, self.nothing_measured_yet(code, rows)));
         let mut costs: Vec<_> = costs.collect();
         for _ in 0..self.repeats {
-            for (code, cost) in &mut costs {
+            for ((settled, code), cost) in &mut costs {
                 let directory = format!("{}-{}", cost.code, cost.rows);
                 let context = RunContext {
                     directory: &context.directory.join(directory),
                     ..*context
                 };
-                let pyramid = self.pyramid(cost.code, cost.rows);
+                let pyramid = self.pyramid(settled, cost.rows);
                 for run in code.build(&[pyramid], &context)? {
                     cost.add(&run);
                 }
@@ -87,7 +95,7 @@ impl PyramidBench {
 
     /// The pyramid of so many rows as `code` builds it. Native takes the convention of an external code with
     /// the paper's arms, so that the two compute the same thing.
-    pub fn pyramid(&self, code: Code, rows: u32) -> Pyramid {
+    pub fn pyramid(&self, code: &SettledCode, rows: u32) -> Pyramid {
         let pyramid = Pyramid::touching(rows, STIFFNESS, convention(code));
         let cylinders = pyramid.cylinder_count().max(1) as u64;
         Pyramid {
@@ -97,8 +105,12 @@ impl PyramidBench {
         }
     }
 
-    fn nothing_measured_yet(&self, code: &dyn InstalledCode, rows: u32) -> PyramidCost {
-        let pyramid = self.pyramid(code.name(), rows);
+    fn nothing_measured_yet(
+        &self,
+        (settled, code): &(&SettledCode, Box<dyn InstalledCode>),
+        rows: u32,
+    ) -> PyramidCost {
+        let pyramid = self.pyramid(settled, rows);
         PyramidCost {
             code: code.name(),
             version: code.identity().version.clone(),
@@ -164,7 +176,7 @@ mod tests {
         let bench = PyramidBench::default();
         for code in &bench.codes {
             for rows in &bench.rows {
-                let pyramid = bench.pyramid(*code, *rows);
+                let pyramid = bench.pyramid(code, *rows);
                 pyramid.validate().expect("a pyramid");
                 let work = pyramid.timed_steps * pyramid.cylinder_count() as u64;
                 assert!(work >= bench.cylinder_steps);

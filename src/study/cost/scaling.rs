@@ -3,7 +3,7 @@
 use super::stack::{LENGTHS, plans, timed_cases};
 use super::statistics::median;
 use super::target::{BenchError, BenchTarget, InstalledTarget};
-use crate::code::{Code, RunContext};
+use crate::code::{RunContext, SettledCode};
 use crate::model::{Case, PAPER_BODIES};
 use crate::runs::in_parallel;
 use std::time::Instant;
@@ -49,8 +49,8 @@ pub(crate) fn measure_scaling(
     repeats: Option<usize>,
     context: &RunContext,
 ) -> Result<Scaling, BenchError> {
-    let lanes = InstalledTarget::find(BenchTarget::NativeLanes)?;
-    let planned = plans((Code::NATIVE, PAPER_BODIES), STACKS).into_iter();
+    let lanes = InstalledTarget::find(BenchTarget::NativeLanes, &SettledCode::native())?;
+    let planned = plans((&SettledCode::native(), PAPER_BODIES), STACKS).into_iter();
     let planned: Vec<Case> = planned.flat_map(|plan| plan.cases).collect();
     let cores = numbers_of_cores();
     let mut over_cases = CASES.map(|_| Vec::new());
@@ -85,7 +85,12 @@ fn in_lanes(
     count: usize,
     context: &RunContext,
 ) -> Result<f64, BenchError> {
-    let cases = timed_cases((Code::NATIVE, PAPER_BODIES), count, STEPS, LENGTHS);
+    let cases = timed_cases(
+        (&SettledCode::native(), PAPER_BODIES),
+        count,
+        STEPS,
+        LENGTHS,
+    );
     let steps: u64 = cases.iter().map(Case::total_steps).sum();
     let calls = LEAST_CASES.div_ceil(count);
     let mut seconds = 0.0;

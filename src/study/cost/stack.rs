@@ -2,7 +2,7 @@
 
 use super::statistics::median;
 use super::target::{BenchError, BenchTarget, InstalledTarget, TimedRuns, convention};
-use crate::code::{Code, RunContext};
+use crate::code::{Code, RunContext, SettledCode};
 use crate::model::{
     CRITICAL_FRICTION, Case, PAPER_BODIES, Power, Preparation, Protocol, Sampling, Stack,
 };
@@ -58,11 +58,12 @@ pub struct StackCost {
     pub peak_bytes: Option<u64>,
 }
 
-/// The codes that are installed, of each the first variant.
-pub(crate) fn installed_codes() -> Vec<Code> {
+/// The codes that are installed, of each the first variant, as they are declared: what a manifest leaves out does not change
+/// the duration of a step.
+pub(crate) fn installed_codes() -> Vec<SettledCode> {
     let codes = Code::of_power(Power::Linear).into_iter();
     let installed = codes.filter(|code| code.is_first_variant() && code.find().is_some());
-    installed.collect()
+    installed.map(|code| code.unmeasured("")).collect()
 }
 
 /// Measures all targets of `codes` on one core, each call in a directory of its own in that of `context`. The targets
@@ -71,19 +72,20 @@ pub(crate) fn installed_codes() -> Vec<Code> {
 /// # Errors
 /// If a code is missing, a run fails, or its files cannot be written.
 pub(crate) fn measure_stack(
-    codes: &[Code],
+    codes: &[SettledCode],
     bodies: u8,
     repeats: Option<usize>,
     context: &RunContext,
 ) -> Result<Vec<StackCost>, BenchError> {
-    let targets = codes.iter().copied().flat_map(BenchTarget::of);
-    let targets: Vec<_> = targets
-        .map(InstalledTarget::find)
-        .collect::<Result<_, _>>()?;
+    let targets = codes.iter().flat_map(|code| {
+        let targets = BenchTarget::of(code.name()).into_iter();
+        targets.map(move |target| InstalledTarget::find(target, code))
+    });
+    let targets: Vec<_> = targets.collect::<Result<_, _>>()?;
     let mut costs: Vec<StackCost> = targets.iter().map(StackCost::nothing_yet).collect();
     for target in &targets {
         // The first start reads the program from disk.
-        let short = timed_cases((target.code.name(), bodies), 1, STEPS, 1);
+        let short = timed_cases((&target.settled, bodies), 1, STEPS, 1);
         target.time(&short, context)?;
     }
     for _ in 0..repeats.unwrap_or(REPEATS) {
@@ -112,12 +114,12 @@ pub(super) fn short_and_long(
     steps: u64,
     context: &RunContext,
 ) -> Result<[(u64, f64); 2], BenchError> {
-    let code = target.code.name();
-    let count = match code {
+    let count = match target.code.name() {
         Code::NATIVE => NATIVE_CASES,
         _ => 1,
     };
-    let [short, long] = [1, LENGTHS].map(|part| timed_cases((code, bodies), count, steps, part));
+    let [short, long] =
+        [1, LENGTHS].map(|part| timed_cases((&target.settled, bodies), count, steps, part));
     let [few, many] = [&short, &long].map(|cases| cases.iter().map(Case::total_steps).sum());
     let short = target.time(&short, context)?.duration.as_secs_f64();
     let long = target.time(&long, context)?.duration.as_secs_f64();
@@ -130,14 +132,14 @@ fn time_yield_forces(
     cost: &mut StackCost,
     context: &RunContext,
 ) -> Result<(), BenchError> {
-    let plans = plans((target.code.name(), bodies), STACKS);
+    let plans = plans((&target.settled, bodies), STACKS);
     let cases: Vec<Case> = plans.iter().flat_map(|plan| plan.cases.clone()).collect();
     cost.add_yield_forces(&plans, target.time(&cases, context)?);
     Ok(())
 }
 
 /// The measurements of the yield forces of so many `stacks`, as a crosscheck plans them for `code`.
-pub(super) fn plans((code, bodies): (Code, u8), stacks: usize) -> Vec<Measurement> {
+pub(super) fn plans((code, bodies): (&SettledCode, u8), stacks: usize) -> Vec<Measurement> {
     let stacks = (0..stacks).map(|index| stack(index, bodies));
     stacks
         .map(|stack| plan(code, &stack, convention(code)))
@@ -159,7 +161,7 @@ fn stack(index: usize, bodies: u8) -> Stack {
 
 /// `count` cases with `part` / [`LENGTHS`] of a compression of so many `steps`, and few rows.
 pub(super) fn timed_cases(
-    (code, bodies): (Code, u8),
+    (code, bodies): (&SettledCode, u8),
     count: usize,
     steps: u64,
     part: u64,
@@ -265,7 +267,7 @@ mod tests {
     #[test]
     fn short_and_long_runs_are_valid_and_differ_in_their_steps_alone() {
         let [short, long] =
-            [1, LENGTHS].map(|part| timed_cases((Code::named("yade").unwrap(), 2), 2, 8000, part));
+            [1, LENGTHS].map(|part| timed_cases((&SettledCode::named("yade"), 2), 2, 8000, part));
         for (short, long) in short.iter().zip(&long) {
             assert_eq!([short.validate(), long.validate()], [Ok(()), Ok(())]);
             assert_eq!(long.total_steps() - short.total_steps(), 7000);
@@ -276,7 +278,8 @@ mod tests {
 
     #[test]
     fn what_comes_before_the_first_step_does_not_count() {
-        let target = InstalledTarget::find(BenchTarget::NativeScalar).unwrap();
+        let target =
+            InstalledTarget::find(BenchTarget::NativeScalar, &SettledCode::native()).unwrap();
         let mut cost = StackCost::nothing_yet(&target);
         cost.add_steps([(1000, 3.001), (9000, 3.009)]);
         assert!((cost.median() - 1000.0).abs() < 1e-6);

@@ -1,7 +1,7 @@
 //! The codes that are timed, and the timing of runs.
 
 use super::memory::{Processes, with_peak};
-use crate::code::{Code, Failure, InstalledCode, Run, RunContext};
+use crate::code::{Code, Failure, InstalledCode, Run, RunContext, SettledCode};
 use crate::files::FileError;
 use crate::model::{Case, ContactConvention, Power};
 use std::time::{Duration, Instant};
@@ -66,6 +66,8 @@ impl BenchTarget {
 pub(super) struct InstalledTarget {
     pub(super) target: BenchTarget,
     pub(super) code: Box<dyn InstalledCode>,
+    /// Its code under the convention of the runs that are timed.
+    pub(super) settled: SettledCode,
 }
 
 /// Runs that were timed together.
@@ -78,12 +80,14 @@ pub(super) struct TimedRuns {
 }
 
 impl InstalledTarget {
-    pub(super) fn find(target: BenchTarget) -> Result<Self, BenchError> {
+    /// `target`, which is `settled`.
+    pub(super) fn find(target: BenchTarget, settled: &SettledCode) -> Result<Self, BenchError> {
         let code = target.code();
         let found = code.find().ok_or(BenchError::Missing { code })?;
         Ok(Self {
             target,
             code: found,
+            settled: settled.clone(),
         })
     }
 
@@ -135,15 +139,13 @@ impl InstalledTarget {
 
 /// What a contact is to `code`. Native takes the convention of the first external code with the paper's arms, so that
 /// the two compute the same thing.
-pub(super) fn convention(code: Code) -> ContactConvention {
+pub(super) fn convention(code: &SettledCode) -> ContactConvention {
     let own = code.convention();
-    if code != Code::NATIVE {
+    if code.name() != Code::NATIVE {
         return own;
     }
-    let others = Code::of_power(Power::Linear)
-        .into_iter()
-        .skip(1)
-        .map(Code::convention);
+    let others = Code::of_power(Power::Linear).into_iter().skip(1);
+    let others = others.filter_map(|other| Some(other.as_declared()?.convention()));
     let mut others = others.filter(|other| other.arms == own.arms);
     others.next().unwrap_or(own)
 }

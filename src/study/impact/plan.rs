@@ -1,7 +1,7 @@
 //! The planned impacts of a code.
 
 use super::extrapolate::DIVISIONS;
-use crate::code::Code;
+use crate::code::{Code, SettledCode};
 use crate::model::{
     ContactConvention, ContactTest, CoulombOperand, DampingGrowth, Impact, ImpactTarget, Power,
     SlidingSpring, TangentialHistory, TangentialStiffening,
@@ -108,7 +108,7 @@ impl Reference {
 #[derive(Debug, Clone, PartialEq)]
 pub struct ImpactStudy {
     /// The code.
-    pub code: Code,
+    pub code: SettledCode,
     /// The impact, under the convention of the code.
     pub impact: Impact,
     /// Its normal motion.
@@ -154,8 +154,8 @@ impl ImpactStudy {
 }
 
 /// Plans all impacts by `code`, whose convention is `convention`.
-pub fn plan_impacts(code: Code, convention: ContactConvention) -> Vec<ImpactStudy> {
-    let elastic = elastic(code, &convention);
+pub fn plan_impacts(code: &SettledCode, convention: ContactConvention) -> Vec<ImpactStudy> {
+    let elastic = elastic(code.name(), &convention);
     let with = |damped: &[f64]| [&[elastic], damped].concat();
     let impact = |target, restitution, approach_speed| Impact {
         target,
@@ -190,7 +190,7 @@ fn elastic(code: Code, convention: &ContactConvention) -> f64 {
         restitution: 1.0,
         ..*convention
     };
-    match code.check_convention(&asked) {
+    match code.check_declared(&asked) {
         Ok(()) => 1.0,
         Err(_) => NEARLY_ELASTIC,
     }
@@ -245,16 +245,16 @@ fn time_step(normal: &NormalImpact, division: u32) -> f64 {
 }
 
 fn studies_of(
-    code: Code,
+    code: &SettledCode,
     impact: Impact,
     quantities: &[ImpactQuantity],
 ) -> impl Iterator<Item = ImpactStudy> {
-    let asked = match code.accepts_any_convention() {
+    let asked = match code.name().accepts_any_convention() {
         true => impact.convention,
         // Motions are asked for under the declaration.
         false => ContactConvention {
             restitution: impact.convention.restitution,
-            ..code.declaration().convention
+            ..code.name().declaration().convention
         },
     };
     let normal = normal_impact(&impact);
@@ -267,7 +267,7 @@ fn studies_of(
         }
     });
     quantities.iter().map(move |&quantity| ImpactStudy {
-        code,
+        code: code.clone(),
         impact,
         normal,
         quantity,

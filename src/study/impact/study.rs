@@ -2,7 +2,7 @@
 
 use super::extrapolate::{DIVISIONS, extrapolate, orders, weights};
 use super::plan::{ImpactQuantity, ImpactStudy, Reference};
-use crate::code::{Code, ConventionKey, Unknown};
+use crate::code::{Code, ConventionKey, SettledCode, Unknown};
 use crate::model::ImpactTarget;
 use crate::runs::{ImpactReading, ImpactRun, Workload};
 use crate::series::Rebound;
@@ -70,8 +70,8 @@ impl Study for ImpactStudy {
     /// Absent if bodies do not touch and part, or the reference fails.
     type Finding = Option<ImpactFinding>;
 
-    fn code(&self) -> Code {
-        self.code
+    fn code(&self) -> SettledCode {
+        self.code.clone()
     }
 
     fn depends_on(&self, unknown: &Unknown) -> bool {
@@ -99,7 +99,7 @@ impl Study for ImpactStudy {
 
     fn workloads(&self) -> Vec<Workload<ImpactRun>> {
         let own = Workload {
-            code: self.code,
+            code: self.code.name(),
             tasks: self.runs.to_vec(),
         };
         let twin = (self.reference() == Reference::Twin).then(|| Workload {

@@ -1,7 +1,7 @@
 //! A*, the push up to which the bottom cylinders end without contact.
 
 use super::plan::plan_preparation;
-use crate::code::Code;
+use crate::code::SettledCode;
 use crate::model::Stack;
 use crate::runs::{RunError, RunSummary, Workload};
 use crate::study::Campaign;
@@ -78,11 +78,11 @@ fn first_contacts(
 /// Whether the bottom cylinders of each stack touch at the beginning of the compression, after the given
 /// push.
 fn touching(campaign: &Campaign, pushed: &[(Stack, f64)]) -> Result<Vec<bool>, RunError> {
-    let native = Code::NATIVE;
+    let native = SettledCode::native();
     let workloads = pushed.iter().map(|(stack, push)| {
-        let plan = plan_preparation(native, native, stack, Some(*push));
+        let plan = plan_preparation(&native, &native, stack, Some(*push));
         Workload {
-            code: native,
+            code: native.name(),
             tasks: plan.cases().get(MIDDLE_RUN).copied().into_iter().collect(),
         }
     });

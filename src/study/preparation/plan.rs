@@ -1,6 +1,6 @@
 //! The runs that measure the yield force after a preparation.
 
-use crate::code::Code;
+use crate::code::{Code, SettledCode};
 use crate::model::{Case, Power, Preparation, Protocol, Sampling, SideWalls, Stack};
 use crate::study::yield_force::{Measurement, SHORT_RAMP_RUN, plan};
 
@@ -29,7 +29,7 @@ pub(crate) fn between_side_walls(protocol: &Protocol, walls: SideWalls) -> Proto
 #[derive(Debug, Clone, PartialEq)]
 pub struct PreparationPlan {
     /// The code.
-    pub code: Code,
+    pub code: SettledCode,
     /// The code whose convention it has; another one than itself makes it a twin.
     pub convention_of: Code,
     /// A in r; `None` for the gravity ramp.
@@ -50,8 +50,8 @@ impl PreparationPlan {
 /// Plans the yield force of `stack` with `code`, under its own convention or, natively, as a twin of
 /// `convention_of`; side walls are pushed in by `push`, or gravity rises where there is none.
 pub fn plan_preparation(
-    code: Code,
-    convention_of: Code,
+    code: &SettledCode,
+    convention_of: &SettledCode,
     stack: &Stack,
     push: Option<f64>,
 ) -> PreparationPlan {
@@ -69,8 +69,8 @@ pub fn plan_preparation(
         }
     }
     PreparationPlan {
-        code,
-        convention_of,
+        code: code.clone(),
+        convention_of: convention_of.name(),
         push,
         measurement,
     }
@@ -86,7 +86,7 @@ mod tests {
         for stiffness in [1e2, 1e4] {
             for push in [None, Some(0.0), Some(5.0 / stiffness)] {
                 let stack = Stack::paper(0.3, stiffness);
-                let yade = Code::named("yade").unwrap();
+                let yade = &SettledCode::named("yade");
                 let plan = plan_preparation(yade, yade, &stack, push);
                 assert_eq!(plan.cases().len(), SHORT_RAMP_RUN + 1);
                 for case in plan.cases() {
@@ -99,7 +99,7 @@ mod tests {
     #[test]
     fn without_a_push_it_is_the_plan_of_the_crosscheck() {
         let stack = Stack::paper(0.3, 1e2);
-        let native = Code::NATIVE;
+        let native = &SettledCode::native();
         let own = plan_preparation(native, native, &stack, None);
         assert_eq!(
             own.measurement,

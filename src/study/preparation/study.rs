@@ -2,7 +2,7 @@
 
 use super::critical::{CriticalPush, critical_pushes};
 use super::plan::{PreparationPlan, plan_preparation};
-use crate::code::{Code, Provenance, Unknown};
+use crate::code::{Code, Provenance, SettledCode, Unknown};
 use crate::model::{Arms, CRITICAL_FRICTION, Case, ContactConvention, Stack};
 use crate::runs::{RunError, RunSummary, Workload};
 use crate::series::YieldEstimates;
@@ -92,7 +92,7 @@ const PUSHES: [f64; 5] = [0.25, 0.5, 1.0, 2.0, 5.0];
 /// below, at and above the critical one at the stiffnesses 100 and 10⁴.
 pub(crate) fn preparation_studies(
     campaign: &Campaign,
-    codes: &[Code],
+    codes: &[SettledCode],
 ) -> Result<Vec<PreparationStudy>, RunError> {
     let stacks: Vec<Stack> = STIFFNESSES
         .iter()
@@ -105,12 +105,15 @@ pub(crate) fn preparation_studies(
 }
 
 /// The cases of [`preparation_studies`] that `code` runs.
-pub(crate) fn preparation_cases(campaign: &Campaign, code: Code) -> Result<Vec<Case>, RunError> {
+pub(crate) fn preparation_cases(
+    campaign: &Campaign,
+    code: &SettledCode,
+) -> Result<Vec<Case>, RunError> {
     let stack = Stack::paper(FRICTIONS[0], STIFFNESSES[0]);
     let critical = critical_pushes(campaign, &[stack])?;
     let critical = critical.first().and_then(Option::as_ref);
-    let mut plans = plans_of(&stack, &PUSHES, critical, &[code]);
-    plans.retain(|plan| plan.code == code);
+    let mut plans = plans_of(&stack, &PUSHES, critical, std::slice::from_ref(code));
+    plans.retain(|plan| plan.code == *code);
     Ok(plans
         .iter()
         .flat_map(|plan| plan.cases())
@@ -128,15 +131,15 @@ pub fn study_preparation(
     campaign: &Campaign,
     stacks: &[Stack],
     relative_pushes: &[f64],
-    codes: &[Code],
+    codes: &[SettledCode],
 ) -> Result<Vec<PreparationStudy>, RunError> {
     let critical = critical_pushes(campaign, stacks)?;
-    let mut names = [&[Code::NATIVE], codes].concat();
-    names.sort();
-    names.dedup();
+    let mut all = [&[SettledCode::native()], codes].concat();
+    all.sort_by_key(SettledCode::name);
+    all.dedup_by_key(|code| code.name());
     let plans = stacks.iter().zip(&critical);
     let plans =
-        plans.map(|(stack, critical)| plans_of(stack, relative_pushes, critical.as_ref(), &names));
+        plans.map(|(stack, critical)| plans_of(stack, relative_pushes, critical.as_ref(), &all));
     let plans: Vec<Vec<PreparationPlan>> = plans.collect();
     let counts: Vec<usize> = plans.iter().map(Vec::len).collect();
     let judged = campaign.carry_out(plans.concat());
@@ -157,7 +160,7 @@ fn plans_of(
     stack: &Stack,
     relative_pushes: &[f64],
     critical: Option<&CriticalPush>,
-    codes: &[Code],
+    codes: &[SettledCode],
 ) -> Vec<PreparationPlan> {
     let relative = relative_pushes.iter().map(|push| push * stack.epsilon());
     let mut pushes: Vec<f64> = relative.chain(critical.map(|found| found.push)).collect();
@@ -166,15 +169,16 @@ fn plans_of(
     pushes.dedup();
     let preparations = || [None].into_iter().chain(pushes.iter().copied().map(Some));
     let mut plans = Vec::new();
-    for &name in codes {
-        let twin = (name != Code::NATIVE).then_some(Code::NATIVE);
-        for code in [name].into_iter().chain(twin) {
-            plans.extend(preparations().map(|push| plan_preparation(code, name, stack, push)));
+    let native = SettledCode::native();
+    for own in codes {
+        let twin = (own.name() != Code::NATIVE).then_some(&native);
+        for code in [own].into_iter().chain(twin) {
+            plans.extend(preparations().map(|push| plan_preparation(code, own, stack, push)));
         }
     }
     plans.retain(|plan| {
         // A twin without its original is of no use.
-        let names = [plan.code, plan.convention_of];
+        let names = [plan.code.name(), plan.convention_of];
         let offered = |case: &Case| {
             let preparation = &case.protocol.preparation;
             let refused = |name: Code| name.check_preparation(stack, preparation).is_err();
@@ -213,8 +217,8 @@ impl Study for PreparationPlan {
     type Reading = RunSummary;
     type Finding = PreparationFinding;
 
-    fn code(&self) -> Code {
-        self.code
+    fn code(&self) -> SettledCode {
+        self.code.clone()
     }
 
     fn depends_on(&self, unknown: &Unknown) -> bool {
@@ -282,7 +286,7 @@ impl PreparationRow {
         let finding = judged.finding.as_ref();
         let force = finding.and_then(|finding| finding.yield_force);
         Self {
-            code: plan.code,
+            code: plan.code.name(),
             convention_of: plan.convention_of,
             push: plan.push,
             limit_force: limit_force(&plan),

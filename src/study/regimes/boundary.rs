@@ -1,7 +1,7 @@
 //! A boundary of the regime map: the runs on both sides of it, and whether they show what is claimed.
 
 use super::loading::loading;
-use crate::code::Code;
+use crate::code::{Code, SettledCode};
 use crate::dem::{EventRun, Loading, Observation, Until};
 use crate::model::{HistoryUpdate, Stack};
 use crate::runs::Workload;
@@ -109,8 +109,8 @@ impl Study for SidePlan {
     type Reading = Observation;
     type Finding = Observation;
 
-    fn code(&self) -> Code {
-        Code::NATIVE
+    fn code(&self) -> SettledCode {
+        SettledCode::native()
     }
 
     fn workloads(&self) -> Vec<Workload<EventRun>> {

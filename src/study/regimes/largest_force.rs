@@ -1,7 +1,7 @@
 //! The largest force that a stack bears: the runs that measure it, and the comparison with theory.
 
 use super::loading::loading;
-use crate::code::Code;
+use crate::code::{Code, SettledCode};
 use crate::dem::{EventRun, Loading, Observation, Until};
 use crate::model::{ContactConvention, HistoryUpdate, Stack};
 use crate::runs::Workload;
@@ -80,8 +80,8 @@ impl Study for PeakPlan {
     type Reading = Observation;
     type Finding = PeakFinding;
 
-    fn code(&self) -> Code {
-        Code::NATIVE
+    fn code(&self) -> SettledCode {
+        SettledCode::native()
     }
 
     fn workloads(&self) -> Vec<Workload<EventRun>> {

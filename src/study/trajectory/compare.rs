@@ -5,7 +5,7 @@ use super::documented::documented;
 use super::judge::{FORCE_TOLERANCE, judge_order};
 use super::judgement::{Comparison, Times, TrajectoryFinding};
 use super::plan::{DISTURBANCE, Trajectory, Twin, TwinRuns};
-use crate::code::{Code, Identity, Run};
+use crate::code::{Code, Identity, Run, SettledCode};
 use crate::model::{Case, Stack};
 use crate::runs::{Reading, Workload};
 use crate::series::{ENOUGH_DIGITS, Mechanics, Sample, most_digits};
@@ -41,13 +41,13 @@ impl Study for Trajectory {
     type Reading = Rows;
     type Finding = TrajectoryFinding;
 
-    fn code(&self) -> Code {
-        self.code
+    fn code(&self) -> SettledCode {
+        self.code.clone()
     }
 
     fn workloads(&self) -> Vec<Workload> {
         let own = Workload {
-            code: self.code,
+            code: self.code.name(),
             tasks: self.cases.clone(),
         };
         let twins = self.twins.iter().map(|runs| Workload {
@@ -99,7 +99,7 @@ impl Trajectory {
     fn pairs<'a>(&'a self, samples: &[Vec<&'a [Sample]>]) -> Option<Vec<Pair<'a>>> {
         let (own, twins) = samples.split_first()?;
         let pairs = self.twins.iter().zip(twins);
-        let pairs = pairs.map(|(runs, twin)| Pair::new((self.code, &self.stack), runs, own, twin));
+        let pairs = pairs.map(|(runs, twin)| Pair::new((&self.code, &self.stack), runs, own, twin));
         let pairs: Vec<Pair> = pairs.collect::<Option<_>>()?;
         (!pairs.is_empty()).then_some(pairs)
     }
@@ -156,7 +156,7 @@ fn doubt_few_digits(comparisons: &mut [Comparison], own: Option<&Vec<&[Sample]>>
 
 /// A code and one of its twins.
 struct Pair<'a> {
-    code: Code,
+    code: &'a SettledCode,
     stack: &'a Stack,
     runs: &'a TwinRuns,
     /// Series of the code, one per time step.
@@ -171,7 +171,7 @@ struct Pair<'a> {
 impl<'a> Pair<'a> {
     /// `twin` holds the series of `runs` in their order; `None` if the twin does not collapse.
     fn new(
-        (code, stack): (Code, &'a Stack),
+        (code, stack): (&'a SettledCode, &'a Stack),
         runs: &'a TwinRuns,
         series: &[&'a [Sample]],
         twin: &[&'a [Sample]],
@@ -222,7 +222,7 @@ impl<'a> Pair<'a> {
         });
         let distances: Vec<Distance> = distances.collect();
         let step_error = self.step_error(quantity, branch);
-        let documented = documented(self.code, self.runs.twin, quantity, branch);
+        let documented = documented(self.code.name(), self.runs.twin, quantity, branch);
         let grounds = judge_order(documented.order, &distances, step_error);
         let mut comparison = Comparison {
             twin: self.runs.twin,

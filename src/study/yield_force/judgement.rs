@@ -7,7 +7,7 @@ use super::extrapolate::{
 use super::peak::{load_per_step, peak_allowance};
 use super::plan::Measurement;
 use super::runs::{Method, SPEEDS};
-use crate::code::{Code, Unknown};
+use crate::code::{SettledCode, Unknown};
 use crate::model::Protocol;
 use crate::runs::{RunSummary, Workload};
 use crate::series::{YieldEstimates, left_of_touch};
@@ -38,8 +38,8 @@ impl Study for Measurement {
     type Reading = RunSummary;
     type Finding = YieldForce;
 
-    fn code(&self) -> Code {
-        self.code
+    fn code(&self) -> SettledCode {
+        self.code.clone()
     }
 
     fn depends_on(&self, unknown: &Unknown) -> bool {
@@ -48,7 +48,7 @@ impl Study for Measurement {
 
     fn workloads(&self) -> Vec<Workload> {
         vec![Workload {
-            code: self.code,
+            code: self.code.name(),
             tasks: self.cases.clone(),
         }]
     }
@@ -594,7 +594,7 @@ mod tests {
     #[test]
     fn a_peak_at_the_paper_s_speed_agrees_and_one_that_is_off_differs() {
         let stack = Stack::paper(0.16, 1e4);
-        let measurement = plan_literal(Code::NATIVE, &stack, ContactConvention::PAPER);
+        let measurement = plan_literal(&SettledCode::native(), &stack, ContactConvention::PAPER);
         let made = runs(&measurement, 1.0);
         let judged = |runs: &[RunSummary]| {
             let evaluation = measurement.evaluate(vec![runs.to_vec()]);

@@ -82,15 +82,16 @@ pub(crate) fn law_curves(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::code::SettledCode;
     use crate::model::Power;
 
     #[test]
     fn seven_limits_stand_behind_the_styles_of_hertz() {
-        let mut styles = Code::of_power(Power::Hertz);
-        styles.retain(|code| !code.accepts_any_convention());
+        let mut styles = SettledCode::of_power(Power::Hertz);
+        styles.retain(|code| !code.name().accepts_any_convention());
         let styles: Vec<_> = styles
             .into_iter()
-            .map(|code| (code, code.convention()))
+            .map(|code| (code.name(), code.convention()))
             .collect();
         let different = different_limits(&styles).into_iter();
         let names: Vec<&str> = different.map(|(code, _)| code.as_str()).collect();

@@ -1,6 +1,6 @@
 //! The exact limits that measurements are held to.
 
-use crate::code::Code;
+use crate::code::SettledCode;
 use crate::model::{ContactConvention, Stack};
 use crate::theory::{Limit, limit_uncertainty, quasistatic_limit};
 use std::collections::BTreeMap;
@@ -9,7 +9,7 @@ use std::sync::{Mutex, PoisonError};
 /// By how much the limit of `stack` may be off because arms of `code` were measured; `None` where all of them are
 /// declared, or nothing yields.
 pub(super) fn convention_uncertainty(
-    code: Code,
+    code: &SettledCode,
     stack: &Stack,
     convention: &ContactConvention,
 ) -> Option<f64> {

@@ -7,7 +7,7 @@ use super::limits::{convention_uncertainty, known_limit};
 use super::runs::{COARSE_AND_FAST_RUN, MIDDLE_RUN, Method, RunRoles, SLOWEST_RUN, SPEEDS};
 use super::symmetry::lost_before_yield;
 use super::touch::{is_gentle, is_surely_gentle, max_touch_speed};
-use crate::code::Code;
+use crate::code::SettledCode;
 use crate::model::{
     Arms, Case, ContactConvention, Law, PAPER_BODIES, Preparation, Protocol, Sampling, Shortcuts,
     Stack,
@@ -64,7 +64,7 @@ const LITERAL_SPEEDS: [f64; 2] = [PAPER_WALL_SPEED, 2.0 * PAPER_WALL_SPEED];
 #[derive(Debug, Clone, PartialEq)]
 pub struct Measurement {
     /// The code.
-    pub code: Code,
+    pub code: SettledCode,
     /// The stack.
     pub stack: Stack,
     /// The contact convention of the code.
@@ -93,13 +93,13 @@ pub struct Measurement {
 }
 
 /// Plans the measurement of `stack` with `code` under `convention`.
-pub fn plan(code: Code, stack: &Stack, convention: ContactConvention) -> Measurement {
+pub fn plan(code: &SettledCode, stack: &Stack, convention: ContactConvention) -> Measurement {
     planned(code, stack, convention, Method::Extrapolated)
 }
 
 /// Plans the measurement of `stack` as the paper made it.
 pub(crate) fn plan_literal(
-    code: Code,
+    code: &SettledCode,
     stack: &Stack,
     convention: ContactConvention,
 ) -> Measurement {
@@ -156,7 +156,7 @@ impl Measurement {
         let (Some(fastest), Some(travel)) = (fastest, self.limit.wall_travel) else {
             return self;
         };
-        if !self.code.takes_shortcuts() || self.method == Method::Literal {
+        if !self.code.name().takes_shortcuts() || self.method == Method::Literal {
             return self;
         }
         let gentle = max_touch_speed(&self.stack, &self.convention);
@@ -184,7 +184,7 @@ impl Measurement {
 
 /// Plans the measurement of `stack` with `code` under `convention`, its yield force to be read by `method`.
 pub(crate) fn planned(
-    code: Code,
+    code: &SettledCode,
     stack: &Stack,
     convention: ContactConvention,
     method: Method,
@@ -221,7 +221,7 @@ pub(crate) fn planned(
     };
     let is_literal = method == Method::Literal;
     Measurement {
-        code,
+        code: code.clone(),
         stack: *stack,
         convention,
         speed_excess: is_literal
@@ -394,9 +394,9 @@ mod tests {
     fn every_planned_case_is_valid_and_of_similar_length() {
         for stack in crate::study::yield_force::Profile::Quick.stacks(Power::Linear, 2) {
             let measurement = plan(
-                Code::named("yade").unwrap(),
+                &SettledCode::named("yade"),
                 &stack,
-                Code::named("yade").unwrap().convention(),
+                SettledCode::named("yade").convention(),
             );
             assert_eq!(measurement.cases.len(), SPEEDS.len() + 2);
             for case in &measurement.cases {
@@ -410,7 +410,7 @@ mod tests {
     #[test]
     fn each_further_run_differs_from_the_middle_one_in_one_thing() {
         let stack = Stack::paper(0.3, 1e3);
-        let cases = plan(Code::NATIVE, &stack, ContactConvention::TURNING).cases;
+        let cases = plan(&SettledCode::native(), &stack, ContactConvention::TURNING).cases;
         let middle = cases[MIDDLE_RUN];
         let mut coarse = cases[COARSE_TIME_STEP_RUN];
         assert_eq!(coarse.protocol.time_step, 2.0 * TIME_STEP);
@@ -425,7 +425,7 @@ mod tests {
     #[test]
     fn springs_that_remember_forces_have_a_second_run_with_twice_the_time_step() {
         let stack = Stack::paper(0.3, 1e3);
-        let code = Code::named("yade-mindlin").unwrap();
+        let code = &SettledCode::named("yade-mindlin");
         let plan = plan(code, &stack, code.convention());
         let coarse = plan.cases[plan.roles.coarse_and_fast.unwrap()];
         let mut fast = plan.cases[0];
@@ -438,7 +438,7 @@ mod tests {
     #[test]
     fn walls_of_the_figure_are_gentle_as_they_are() {
         let profile = crate::study::yield_force::Profile::Standard;
-        for plan in profile.measurements(&Code::of_power(Power::Linear)) {
+        for plan in profile.measurements(&SettledCode::of_power(Power::Linear)) {
             let scale = plan.limit.z.unwrap().min(plan.limit.wall_travel.unwrap());
             let speeds = plan.cases.iter().map(|case| case.protocol.wall_speed);
             let expected = SPEEDS.map(|speed| rounded(speed * scale));
@@ -454,7 +454,7 @@ mod tests {
                 stiffness_ratio: 1.2,
                 ..Stack::paper(0.35, stiffness)
             };
-            plan(Code::NATIVE, &stack, ContactConvention::TURNING)
+            plan(&SettledCode::native(), &stack, ContactConvention::TURNING)
         };
         let [slowed, rough] = [1e5, 1e6].map(planned);
         assert!(slowed.is_gentle && !rough.is_gentle);
@@ -472,7 +472,7 @@ mod tests {
                 stiffness_ratio: kappa,
                 ..Stack::paper(0.3, stiffness)
             };
-            let measurement = plan(Code::NATIVE, &stack, ContactConvention::TURNING);
+            let measurement = plan(&SettledCode::native(), &stack, ContactConvention::TURNING);
             let limit = &measurement.limit;
             assert!(limit.rises_after_onset() && !measurement.cases.is_empty());
             for case in &measurement.cases {
@@ -493,7 +493,7 @@ mod tests {
     #[test]
     fn shortcuts_save_most_of_the_steps_and_two_runs_go_without_them() {
         let stack = Stack::paper(0.3, 1e2);
-        let measurement = plan(Code::NATIVE, &stack, ContactConvention::TURNING);
+        let measurement = plan(&SettledCode::native(), &stack, ContactConvention::TURNING);
         let shortened = measurement.clone().shortened();
         let plain = shortened.roles.plain.unwrap();
         for (position, plain) in plain.into_iter().zip(&measurement.cases) {
@@ -507,12 +507,12 @@ mod tests {
             });
             assert!(short < 0.5 * plain, "{short} {plain}");
         }
-        let literal = plan_literal(Code::NATIVE, &stack, ContactConvention::TURNING);
+        let literal = plan_literal(&SettledCode::native(), &stack, ContactConvention::TURNING);
         assert_eq!(literal.clone().shortened(), literal);
         let yade = plan(
-            Code::named("yade").unwrap(),
+            &SettledCode::named("yade"),
             &stack,
-            Code::named("yade").unwrap().convention(),
+            SettledCode::named("yade").convention(),
         );
         assert_eq!(yade.clone().shortened(), yade);
     }
@@ -520,7 +520,7 @@ mod tests {
     #[test]
     fn nothing_is_planned_where_nothing_yields() {
         let measurement = plan(
-            Code::NATIVE,
+            &SettledCode::native(),
             &Stack::paper(0.05, 1e2),
             ContactConvention::TURNING,
         );

@@ -1,7 +1,7 @@
 //! Profiles: the stacks that a crosscheck covers, and how each is measured.
 
 use super::plan::{Measurement, plan, plan_literal};
-use crate::code::Code;
+use crate::code::{Code, SettledCode};
 use crate::model::{CRITICAL_FRICTION, PAPER_BODIES, Power, Stack};
 
 /// Stiffnesses 1/ε of the paper (supplement I.A).
@@ -85,13 +85,18 @@ impl Profile {
     }
 
     /// The measurements of its stacks by each of the `codes`, stack by stack.
-    pub fn measurements(self, codes: &[Code]) -> Vec<Measurement> {
+    pub fn measurements(self, codes: &[SettledCode]) -> Vec<Measurement> {
         let power = Power::Linear;
         self.measurements_of(&self.stacks(power, PAPER_BODIES), codes, power)
     }
 
     /// The measurement of `stack` by `code` in its way, by a law of this power.
-    pub(crate) fn measurement(self, code: Code, stack: &Stack, power: Power) -> Measurement {
+    pub(crate) fn measurement(
+        self,
+        code: &SettledCode,
+        stack: &Stack,
+        power: Power,
+    ) -> Measurement {
         let convention = code.stack_convention(power, stack.bodies);
         match self {
             Self::Quick | Self::Standard => plan(code, stack, convention),
@@ -103,13 +108,13 @@ impl Profile {
     pub(crate) fn measurements_of(
         self,
         stacks: &[Stack],
-        codes: &[Code],
+        codes: &[SettledCode],
         power: Power,
     ) -> Vec<Measurement> {
         let mut measurements = Vec::new();
         for &stack in stacks {
-            for &code in codes {
-                if self != Self::Paper || is_run_literally(code, &stack) {
+            for code in codes {
+                if self != Self::Paper || is_run_literally(code.name(), &stack) {
                     measurements.push(self.measurement(code, &stack, power));
                 }
             }
@@ -130,7 +135,7 @@ mod tests {
     #[test]
     fn every_stack_of_the_figure_yields_for_every_code_and_every_case_is_valid() {
         for profile in [Profile::Standard, Profile::Paper, Profile::Literal] {
-            for measurement in profile.measurements(&Code::of_power(Power::Linear)) {
+            for measurement in profile.measurements(&SettledCode::of_power(Power::Linear)) {
                 assert!(!measurement.cases.is_empty(), "{:?}", measurement.stack);
                 for case in &measurement.cases {
                     case.validate().unwrap();
@@ -141,9 +146,11 @@ mod tests {
 
     #[test]
     fn the_paper_profile_has_one_literal_point_for_every_external_code() {
-        let measurements = Profile::Paper.measurements(&Code::of_power(Power::Linear));
+        let measurements = Profile::Paper.measurements(&SettledCode::of_power(Power::Linear));
         let literal = |code| {
-            let own = measurements.iter().filter(move |row| row.code == code);
+            let own = measurements
+                .iter()
+                .filter(move |row| row.code.name() == code);
             own.filter(|row| row.method == Method::Literal).count()
         };
         assert_eq!(literal(Code::NATIVE), 75);

@@ -5,7 +5,7 @@ use super::judgement::YieldForce;
 use super::plan::{Measurement, RAMP_TIME, REST_TIME, plan, speed_excess, speed_scale};
 use super::runs::{MIDDLE_RUN, Method, RunRoles, SPEEDS};
 use super::touch::is_gentle;
-use crate::code::{Code, Identity, Provenance, Run};
+use crate::code::{Identity, Provenance, Run, SettledCode};
 use crate::model::{
     Arms, Case, ContactConvention, ContactLaw, Preparation, Protocol, Sampling, Stack,
 };
@@ -131,7 +131,7 @@ fn measurement(
     used: &[FoundSeries],
     [coarse_time_step, short_ramp]: [Option<usize>; 2],
 ) -> Option<Measurement> {
-    let planned = plan(Code::NATIVE, stack, convention);
+    let planned = plan(&SettledCode::native(), stack, convention);
     let scale = speed_scale(&planned.limit, stack, &convention)?;
     let cases: Vec<Case> = used.iter().map(|found| found.summary.case).collect();
     let at_one_speed = used.iter().filter(|found| found.role == WALL_SPEED).count() == 1;

@@ -21,11 +21,11 @@ pub(crate) fn measure_with_twin(
     settings: &Settings,
     progress: &dyn Progress,
 ) -> Option<Result<TwinForce, RunError>> {
-    let code = measurement.code.find_precise()?;
+    let code = measurement.code.name().find_precise()?;
     let version = code.identity().version.clone();
     let package = code.identity().package.clone();
     let twin = SelectedCode {
-        name: measurement.code,
+        name: measurement.code.name(),
         code: Some(code),
     };
     let results = read_all(&measurement.workloads(), &[twin], settings, progress);

@@ -6,7 +6,7 @@ use crate::files::{FileError, Links, open_regular, read_bounded, system_text};
 use nix::errno::Errno;
 use serde::{Deserialize, Serialize};
 use std::fs::{File, TryLockError};
-use std::io::{Seek, Write};
+use std::io::{Seek, SeekFrom, Write};
 use std::path::Path;
 use std::time::{Duration, Instant};
 
@@ -85,16 +85,18 @@ impl Lock {
             }
         }
         // Named in the error of programs that wait too long; the lock holds without it.
-        let _ = overwrite(&mut file, owner.to_string().as_bytes());
+        let _ = overwrite(&mut file, owner.to_string().as_bytes(), 0);
         Ok(Self { _file: file })
     }
 }
 
-/// Writes `content` in place of that of `file`, in place because others know the file by its lock.
-pub(super) fn overwrite(file: &mut File, content: &[u8]) -> std::io::Result<()> {
-    file.set_len(0)?;
-    file.rewind()?;
-    file.write_all(content)
+/// Writes `content` in place of that of `file`, in place because others know the file by its lock. The first `kept` bytes
+/// are the same already, and stay.
+pub(super) fn overwrite(file: &mut File, content: &[u8], kept: usize) -> std::io::Result<()> {
+    let rest = content.get(kept..).unwrap_or_default();
+    file.set_len(kept as u64)?;
+    file.seek(SeekFrom::Start(kept as u64))?;
+    file.write_all(rest)
 }
 
 /// The failure of a lock in the file at `path`: most often the file system has none.

@@ -7,7 +7,9 @@
 use super::directories::Directories;
 use super::lock::{Lock, no_lock, overwrite};
 use super::{CHECKPOINTS, LockOwner, StoreError};
-use crate::files::{FileError, Links, is_temporary, open_regular, read_bounded, temporary};
+use crate::files::{
+    FileError, Links, is_temporary, open_regular, read_bounded, remove_abandoned, temporary,
+};
 use nix::sys::statfs::{
     BTRFS_SUPER_MAGIC, EXT4_SUPER_MAGIC, OVERLAYFS_SUPER_MAGIC, TMPFS_MAGIC, XFS_SUPER_MAGIC,
     fstatfs,
@@ -16,6 +18,7 @@ use serde::{Deserialize, Serialize};
 use std::collections::{BTreeSet, HashMap};
 use std::ffi::OsStr;
 use std::fs::{self, DirBuilder, File, Permissions};
+use std::io::Write;
 use std::os::unix::fs::{DirBuilderExt, PermissionsExt};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
@@ -26,6 +29,8 @@ const WORK: &str = "work";
 /// The beginning of the name of every session.
 const PREFIX: &str = "session-";
 const ENDING: &str = ".json";
+/// The beginning of the name of a session file that does not say its owner yet.
+const DRAFT: &str = "draft-";
 /// Permissions of a session file, which other users of a shared store read.
 const READABLE: u32 = 0o644;
 /// Permissions of its directory for unfinished work.
@@ -45,6 +50,12 @@ impl SessionName {
         is_own.then(|| Self(name.to_owned()))
     }
 
+    /// The name of the session whose file is the `draft`.
+    fn of_draft(draft: &Path) -> Self {
+        let name = draft.file_name().unwrap_or_default().to_string_lossy();
+        Self(format!("{PREFIX}{}", name.trim_start_matches(DRAFT)))
+    }
+
     fn file(&self, root: &Path) -> PathBuf {
         root.join(SESSIONS).join(format!("{}{ENDING}", self.0))
     }
@@ -54,12 +65,36 @@ impl SessionName {
     }
 }
 
-/// The content of a session file.
+/// The content of a session file. The owner, which never changes, stands first and is never written again: it can be read
+/// whenever the program is killed.
 #[derive(Debug, Serialize, Deserialize)]
 struct Claims {
     owner: LockOwner,
     /// Addresses of the runs that it is making.
     addresses: BTreeSet<String>,
+}
+
+impl Claims {
+    fn to_json(&self) -> Vec<u8> {
+        serde_json::to_vec(self).expect("plain data has a JSON form")
+    }
+
+    /// How many bytes of the JSON form no change of the addresses changes.
+    fn unchanging(&self) -> usize {
+        let owner = serde_json::to_vec(&self.owner).expect("plain data has a JSON form");
+        BEFORE_OWNER.len() + owner.len()
+    }
+}
+
+/// The JSON form of claims up to the owner.
+const BEFORE_OWNER: &[u8] = b"{\"owner\":";
+
+/// The owner of a session, also of one that was killed while it wrote its addresses.
+fn owner(session: &Path) -> Option<LockOwner> {
+    let text = read_bounded(session, LARGEST, Links::Refused).ok()?;
+    let owner = text.strip_prefix(BEFORE_OWNER)?;
+    let mut owner = serde_json::Deserializer::from_slice(owner).into_iter();
+    owner.next()?.ok()
 }
 
 /// This program in a store.
@@ -81,7 +116,8 @@ struct State {
 }
 
 impl Session {
-    /// Begins a session in a store, after the leftovers of dead ones are removed.
+    /// Begins a session in a store, after the leftovers of dead ones are removed. Its file has the name of one only when it
+    /// says its owner, so that what a killed program leaves is known for its own.
     pub(super) fn begin(directories: &Directories) -> Result<Self, StoreError> {
         let root = directories.root();
         let sessions = directories.create(SESSIONS)?;
@@ -90,9 +126,9 @@ impl Session {
         let owner = LockOwner::this_program();
         let _lock = Lock::acquire(&root.join("lock"), &owner)?;
         remove_dead(root);
+        remove_abandoned(&sessions, DRAFT.as_ref());
         let writing = || FileError::writing(&sessions);
-        let draft = temporary(PREFIX.as_ref())
-            .suffix(ENDING)
+        let draft = temporary(DRAFT.as_ref())
             .permissions(Permissions::from_mode(READABLE))
             .tempfile_in(&sessions)
             .map_err(writing())?;
@@ -104,26 +140,25 @@ impl Session {
                 reason: "a file that is locked can be locked again".to_owned(),
             });
         }
-        let name = draft.path().file_name().and_then(SessionName::of);
-        let name = name.expect("its parts are those of a session");
-        let work = name.work(root);
-        let created = DirBuilder::new().mode(PRIVATE).create(&work);
-        created.map_err(FileError::writing(&work))?;
-        let (file, path) = draft.keep().map_err(|error| writing()(error.error))?;
+        let name = SessionName::of_draft(draft.path());
+        let (path, work) = (name.file(root), name.work(root));
+        let claims = Claims {
+            owner,
+            addresses: BTreeSet::new(),
+        };
+        let written = (&mut draft.as_file()).write_all(&claims.to_json());
+        written.map_err(FileError::writing(draft.path()))?;
+        let named = draft.persist_noclobber(&path);
+        let file = named.map_err(|error| writing()(error.error))?;
         let session = Self {
             root: root.to_owned(),
             name,
             path,
             work,
-            state: Mutex::new(State {
-                file,
-                claims: Claims {
-                    owner,
-                    addresses: BTreeSet::new(),
-                },
-            }),
+            state: Mutex::new(State { file, claims }),
         };
-        session.state().write(&session.path)?;
+        let created = DirBuilder::new().mode(PRIVATE).create(&session.work);
+        created.map_err(FileError::writing(&session.work))?;
         Ok(session)
     }
 
@@ -226,8 +261,8 @@ impl Session {
 
 impl State {
     fn write(&mut self, path: &Path) -> Result<(), StoreError> {
-        let text = serde_json::to_vec(&self.claims).expect("plain data has a JSON form");
-        let written = overwrite(&mut self.file, &text);
+        let (text, kept) = (self.claims.to_json(), self.claims.unchanging());
+        let written = overwrite(&mut self.file, &text, kept);
         let sent = written.and_then(|()| match is_local(&self.file) {
             true => Ok(()),
             // Other machines do not see what a network file system has not sent yet.
@@ -297,12 +332,12 @@ fn is_local(file: &File) -> bool {
 
 /// Removes the leftovers of dead sessions. Must be called under the lock, so that no session is between its
 /// creation and its own lock. A session of another machine is left to that one: on some file systems its lock
-/// cannot be seen from here. One whose claims cannot be read may be of another machine.
+/// cannot be seen from here. One whose owner cannot be read may be of another machine.
 fn remove_dead(root: &Path) {
     let here = LockOwner::this_program().host;
     for name in sessions(root) {
         let session = name.file(root);
-        let is_own = || claims(&session).is_some_and(|claims| claims.owner.host == here);
+        let is_own = || owner(&session).is_some_and(|owner| owner.host == here);
         if is_unlocked(&session) && is_own() {
             // If that fails the session file stays, and the next program tries again.
             let removed = match fs::remove_dir_all(name.work(root)) {
@@ -424,6 +459,42 @@ mod tests {
         assert!(message.contains("session-abcdefABCDEF"), "{message}");
         fs::remove_file(path).unwrap();
         assert!(session.alone().is_ok());
+    }
+
+    /// Wherever a program is killed while it writes its claims, or begins.
+    #[test]
+    fn what_a_killed_program_leaves_of_its_session_goes() {
+        let root = tempfile::tempdir().unwrap();
+        let [dead, left] = leftovers(root.path(), LockOwner::this_program());
+        let whole = fs::read(&dead).unwrap();
+        let owner = Claims {
+            owner: LockOwner::this_program(),
+            addresses: BTreeSet::new(),
+        };
+        for length in owner.unchanging()..=whole.len() {
+            fs::write(&dead, &whole[..length]).unwrap();
+            fs::create_dir_all(&left).unwrap();
+            drop(begin(root.path()).unwrap());
+            assert!(!dead.exists() && !left.exists(), "{length}");
+        }
+        let draft = root.path().join("sessions/draft-abcdefABCDEF");
+        fs::write(&draft, &whole[..5]).unwrap();
+        drop(begin(root.path()).unwrap());
+        assert!(!draft.exists());
+    }
+
+    /// What was written before stays readable while addresses come and go.
+    #[test]
+    fn a_session_file_holds_the_claims_of_today() {
+        let root = tempfile::tempdir().unwrap();
+        let session = begin(root.path()).unwrap();
+        for held in [&["a", "b"][..], &["b"], &[]] {
+            let own = claims(&session.path).unwrap().addresses.into_iter();
+            session.release(&own.collect::<Vec<_>>()).unwrap();
+            session.claim(&addresses(held)).unwrap();
+            let found = claims(&session.path).expect("it is whole");
+            assert_eq!(found.addresses.into_iter().collect::<Vec<_>>(), held);
+        }
     }
 
     #[test]

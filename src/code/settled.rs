@@ -2,6 +2,7 @@
 
 use super::convention::Settled;
 use super::registry::Code;
+use super::task::as_of_cylinders;
 use crate::model::{Case, ContactConvention, InvalidValue, Law, Power};
 use std::sync::Arc;
 
@@ -86,7 +87,7 @@ impl SettledCode {
     /// Refuses a case under another convention than the settled one, or with a stiffness ratio that the code cannot have.
     pub(crate) fn check_case(&self, case: &Case) -> Result<(), InvalidValue> {
         self.code.check_convention_of(case)?;
-        self.check_convention(&self.code.as_of_cylinders(case))
+        self.check_convention(&as_of_cylinders(case, &self.convention()))
     }
 }
 

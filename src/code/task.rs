@@ -203,20 +203,8 @@ impl Code {
     /// Refuses a task whose convention contradicts the declaration of the code, or with a stiffness ratio that it cannot
     /// have.
     pub(crate) fn check_convention_of<T: Task>(self, task: &T) -> Result<(), InvalidValue> {
-        self.check_declared(&self.as_of_cylinders(task))?;
+        self.check_declared(&as_of_cylinders(task, &self.declaration().convention))?;
         self.check_stiffness_ratio(task.stiffness_ratio())
-    }
-
-    /// The convention of `task` as the manifest declares it, of cylinders: spheres are solid, whatever these are.
-    pub(super) fn as_of_cylinders<T: Task>(self, task: &T) -> ContactConvention {
-        let own = *task.convention();
-        match task.kind() {
-            TaskKind::Spheres | TaskKind::SpheresMotion => ContactConvention {
-                moment_of_inertia: self.declaration().convention.moment_of_inertia,
-                ..own
-            },
-            _ => own,
-        }
     }
 
     /// The files that a run of `task` leaves in its directory, as far as the manifest names them.
@@ -239,6 +227,21 @@ impl Code {
     pub fn deck_hash<T: Task>(self, task: &T) -> String {
         let files_hash = self.files_hash(task.kind());
         self.definition().input_hash(&files_hash, task)
+    }
+}
+
+/// The convention of `task` with the moment of inertia of the `cylinders` of its code: spheres are solid, whatever these are.
+pub(super) fn as_of_cylinders<T: Task>(
+    task: &T,
+    cylinders: &ContactConvention,
+) -> ContactConvention {
+    let own = *task.convention();
+    match task.kind() {
+        TaskKind::Spheres | TaskKind::SpheresMotion => ContactConvention {
+            moment_of_inertia: cylinders.moment_of_inertia,
+            ..own
+        },
+        _ => own,
     }
 }
 

@@ -274,6 +274,33 @@ fn one_code_is_measured_twice_in_one_process() {
     );
 }
 
+/// A code that leaves its moment of inertia out, whose cylinders are measured as no solid ones.
+#[test]
+fn a_measured_inertia_is_that_of_cylinders_alone() {
+    let folder = tempfile::tempdir().expect("a directory");
+    let manifest = "schema = 1\nname = \"hollow\"\n[program]\ncommand = [\"hollow\"]\n\
+                    [tasks]\nstack = { files = [\"code.toml\"] }\nspheres = { files = [\"code.toml\"] }\n";
+    std::fs::write(folder.path().join("code.toml"), manifest).expect("a manifest");
+    let code = Code::in_folder(folder.path(), None).expect("a code");
+    let mut measured = code.unmeasured("").settled().clone();
+    measured.convention.moment_of_inertia = 0.4375;
+    let settled = SettledCode::new(code, measured);
+    let case = |bodies: u8, moment_of_inertia: f64| {
+        let convention = ContactConvention {
+            moment_of_inertia,
+            ..settled.convention()
+        };
+        let stack = trajectory_stack(bodies, Power::Linear);
+        plan(&settled, &stack, convention).cases[0]
+    };
+    for (bodies, inertia) in [(2, 0.4375), (3, 0.4375), (3, 0.5)] {
+        let taken = settled.check_case(&case(bodies, inertia));
+        assert_eq!(taken, Ok(()), "{bodies}, {inertia}");
+    }
+    let refused = settled.check_case(&case(2, 0.5)).expect_err("it is hollow");
+    assert_eq!(refused.key, "convention.moment_of_inertia");
+}
+
 /// A rule that no alternative fits leaves the yield force alone, and takes the twin away from a trajectory.
 #[test]
 fn an_unknown_rule_counts_where_it_matters() {

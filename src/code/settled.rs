@@ -85,7 +85,10 @@ impl SettledCode {
     }
 
     /// Refuses a case under another convention than the settled one, or with a stiffness ratio that the code cannot have.
-    pub(crate) fn check_case(&self, case: &Case) -> Result<(), InvalidValue> {
+    ///
+    /// # Errors
+    /// The first key that is refused, with what the code accepts.
+    pub fn check_case(&self, case: &Case) -> Result<(), InvalidValue> {
         self.code.check_convention_of(case)?;
         self.check_convention(&as_of_cylinders(case, &self.convention()))
     }
@@ -124,62 +127,5 @@ impl SettledCode {
     pub(crate) fn of_power(power: Power) -> Vec<Self> {
         let codes = Code::of_power(power).into_iter();
         codes.filter_map(Code::as_declared).collect()
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::model::{Preparation, Protocol, Sampling, Stack};
-
-    const MANIFEST: &str = "schema = 1\nname = \"of-measured-inertia\"\n[program]\ncommand = [\"mydem\"]\n\
-        [tasks]\nstack = { files = [\"code.toml\"] }\nspheres = { files = [\"code.toml\"] }\n";
-
-    /// A case of so many bodies.
-    fn case(bodies: u8, convention: ContactConvention) -> Case {
-        let stack = Stack {
-            bodies,
-            ..Stack::paper(0.3, 1e2)
-        };
-        Case {
-            stack,
-            convention: convention.of_bodies(&stack),
-            protocol: Protocol {
-                preparation: Preparation::GravityRamp {
-                    ramp_time: 100.0,
-                    rest_time: 100.0,
-                },
-                time_step: 0.1,
-                wall_speed: 1e-4,
-                wall_travel: 0.7,
-                sampling: Sampling {
-                    coarse_interval: 60.0,
-                    fine_from_travel: 0.6,
-                    fine_interval: 2.0,
-                },
-                shortcuts: None,
-            },
-        }
-    }
-
-    #[test]
-    fn a_measured_inertia_is_that_of_cylinders_alone() {
-        let folder = tempfile::tempdir().unwrap();
-        std::fs::write(folder.path().join("code.toml"), MANIFEST).unwrap();
-        let code = Code::in_folder(folder.path(), None).unwrap();
-        let mut measured = code.unmeasured("").settled().clone();
-        measured.convention.moment_of_inertia = 0.4375;
-        let own = measured.convention;
-        let settled = SettledCode::new(code, measured);
-        for bodies in [2, 3] {
-            settled.check_case(&case(bodies, own)).unwrap();
-        }
-        let solid = ContactConvention {
-            moment_of_inertia: 0.5,
-            ..own
-        };
-        settled.check_case(&case(3, solid)).unwrap();
-        let refused = settled.check_case(&case(2, solid)).unwrap_err();
-        assert_eq!(refused.key, "convention.moment_of_inertia");
     }
 }

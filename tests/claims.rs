@@ -347,7 +347,7 @@ struct Quiet;
 impl Progress for Quiet {
     fn planned(&self, _: &str, _: usize, _: usize, _: f64) {}
     fn advanced(&self, _: f64) {}
-    fn finished(&self, _: Code, _: &dyn std::fmt::Display, _: Result<Option<f64>, &Failure>) {}
+    fn finished(&self, _: &Code, _: &dyn std::fmt::Display, _: Result<Option<f64>, &Failure>) {}
     fn warn(&self, _: &str) {}
 }
 
@@ -363,9 +363,9 @@ fn native_reproduction() -> Reproduction {
         time_limit: None,
         interrupt: &interrupt,
     };
-    let native = [SelectedCode::find(Code::NATIVE)];
+    let native = [SelectedCode::find(Code::native())];
     let all = Code::of_power(Power::Linear).into_iter();
-    let declared: Vec<SettledCode> = all.filter_map(Code::as_declared).collect();
+    let declared: Vec<SettledCode> = all.filter_map(|code| code.as_declared()).collect();
     let names = [SettledCode::native()];
     let stacks = [0.12, 0.25, CRITICAL_FRICTION, 0.3, 0.5]
         .iter()

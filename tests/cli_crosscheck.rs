@@ -78,7 +78,7 @@ fn rows_that_are_missing_are_not_called_recorded() {
     let bench = Bench::without_codes();
     save_recording(
         &bench.path("reference"),
-        Code::named("yade").expect("it is built in"),
+        &Code::named("yade").expect("it is built in"),
         |_| (),
     );
     let mut command = bench.tristack("crosscheck");
@@ -101,7 +101,7 @@ fn a_damaged_recording_is_refused_with_its_file() {
     let reference = bench.path("reference");
     save_recording(
         &reference,
-        Code::named("yade").expect("it is built in"),
+        &Code::named("yade").expect("it is built in"),
         |_| (),
     );
     let damage = |name: &str| {
@@ -228,7 +228,7 @@ fn a_recording_made_with_another_deck_is_refused_with_the_remedy() {
     let bench = Bench::without_codes();
     save_recording(
         &bench.path("reference"),
-        Code::named("yade").expect("it is built in"),
+        &Code::named("yade").expect("it is built in"),
         |recording| {
             for run in &mut recording.runs {
                 run.summary.provenance.deck_hash.insert(0, '0');
@@ -280,7 +280,7 @@ fn a_recorded_probe_does_not_vouch_for_runs_of_another_version() {
     let bench = Bench::without_codes();
     save_recording(
         &bench.path("reference"),
-        Code::named("yade").expect("it is built in"),
+        &Code::named("yade").expect("it is built in"),
         |recording| {
             for run in &mut recording.runs {
                 run.summary.provenance.identity.version += "1";
@@ -300,10 +300,10 @@ fn the_recorded_probe_of_another_code_does_not_stand_in() {
     let bench = Bench::without_codes();
     save_recording(
         &bench.path("reference"),
-        Code::named("yade").expect("it is built in"),
+        &Code::named("yade").expect("it is built in"),
         |recording| {
             recording.probe =
-                common::recording(Code::named("yade-facet").expect("it is built in")).probe;
+                common::recording(&Code::named("yade-facet").expect("it is built in")).probe;
         },
     );
     let (message, verdicts) = yade_notes_and_verdicts(&bench);
@@ -470,7 +470,7 @@ fn failures_a_summary_and_junit_show_the_same_rows() {
     let bench = Bench::without_codes();
     save_recording(
         &bench.path("reference"),
-        Code::named("yade").expect("it is built in"),
+        &Code::named("yade").expect("it is built in"),
         |_| (),
     );
     let run = |options: &str| {

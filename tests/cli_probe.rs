@@ -176,7 +176,7 @@ fn a_recorded_probe_to_which_something_else_was_told_is_refused() {
     let bench = Bench::without_codes();
     save_recording(
         &bench.path("reference"),
-        Code::named("lammps").expect("it is built in"),
+        &Code::named("lammps").expect("it is built in"),
         |recording| {
             let probe = recording.probe.as_mut().expect("it is there");
             probe.answers[0].input_hash.insert(0, '0');
@@ -202,7 +202,7 @@ fn a_recorded_probe_to_which_something_else_was_told_is_refused() {
 /// The three floors of YADE share their deck: nothing but an argument is between them.
 #[test]
 fn the_hash_of_a_micro_test_sees_parameters_and_arguments() {
-    let record = recording(Code::named("yade").expect("it is built in")).probe;
+    let record = recording(&Code::named("yade").expect("it is built in")).probe;
     let test = record.expect("it is there").answers[0].test;
     let floors = [
         Code::named("yade").expect("it is built in"),
@@ -221,7 +221,7 @@ fn the_hash_of_a_micro_test_sees_parameters_and_arguments() {
 /// On another machine the spin to the slip threshold may be another one in its last digit.
 #[test]
 fn a_record_from_another_machine_stays_valid() {
-    let record = recording(Code::named("lammps").expect("it is built in")).probe;
+    let record = recording(&Code::named("lammps").expect("it is built in")).probe;
     let record = record.expect("it is there");
     let todays = |test: &ContactTest| {
         Code::named("lammps")

@@ -461,7 +461,7 @@ fn record_keeps_every_run_for_machines_without_the_code() {
             .code(0);
     }
     common::assert_only(&reference, &["notes.txt", "yade.csv", "yade.tar.gz"]);
-    let runs = Recorded::new(&reference).recording(Code::named("yade").expect("it is built in"));
+    let runs = Recorded::new(&reference).recording(&Code::named("yade").expect("it is built in"));
     let runs = runs.expect("it is not damaged").runs;
     let with_series = runs.iter().filter(|run| run.series.is_some()).count();
     assert_eq!((runs.len(), with_series), (recorded + 3, 3));

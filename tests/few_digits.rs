@@ -75,13 +75,13 @@ fn enough_digits_decide_as_all_of_them_do() {
 #[test]
 fn recorded_runs_are_printed_in_full() {
     for code in Code::of_power(Power::Linear) {
-        let few = recording(code)
+        let few = recording(&code)
             .runs
             .iter()
             .filter(|run| run.summary.estimates.printed.is_some())
             .count();
         assert_eq!(few, 0, "{code}");
-        for run in recording(code).runs {
+        for run in recording(&code).runs {
             let Some(series) = run.series else { continue };
             let estimates = tristack::series::YieldEstimates::read(&series, &run.summary.case);
             assert_eq!(estimates.printed, None, "{code}, {}", run.summary.case);

@@ -719,7 +719,7 @@ fn a_named_pipe_among_recorded_runs_is_not_waited_for() {
     let reference = bench.path("reference");
     let yade = Code::named("yade").expect("it is built in");
     for name in ["yade.csv", "yade.tar.gz"] {
-        save_recording(&reference, yade, |_| ());
+        save_recording(&reference, &yade, |_| ());
         fs::remove_file(reference.join(name)).expect("it is there");
         pipe(&reference.join(name));
         let mut command = bench.process("crosscheck --explain yade/0.3/100");

@@ -147,7 +147,7 @@ fn the_explanation_says_how_mechanics_hold_and_what_the_identity_covers() {
 fn installed_codes_are_covered_with_their_libraries() {
     let external = Code::of_power(Power::Linear)
         .into_iter()
-        .filter(|code| *code != Code::NATIVE);
+        .filter(|code| !code.is_native());
     let installed = common::installed(&external.collect::<Vec<_>>());
     installed.into_par_iter().for_each(|code| {
         let found = code.find().expect("it is installed");

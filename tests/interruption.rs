@@ -42,7 +42,7 @@ fn outcomes(cases: &[Case], checkpoints: &Path, stop_at: u64) -> (Vec<Result<Run
     };
     let outcomes: Mutex<Vec<Option<Result<Run, Failure>>>> =
         Mutex::new(cases.iter().map(|_| None).collect());
-    let code = Code::NATIVE.find().expect("it is always there");
+    let code = Code::native().find().expect("it is always there");
     code.run(cases, &context, &mut |index, result| {
         outcomes.lock().expect("nobody panics")[index] = Some(result);
     });
@@ -98,10 +98,10 @@ fn a_fresh_start_takes_up_nothing() {
         // By this the run is known that goes on from it.
         kept["seconds"] = 1e6.into();
         fs::write(&file, seal(kept.to_string().as_bytes())).expect("a checkpoint");
-        let codes = [SelectedCode::find(Code::NATIVE)];
+        let codes = [SelectedCode::find(Code::native())];
         let settings = settings(fresh);
         let read = Campaign::new(&codes, &settings, &Silent).read::<Run>(&[Workload {
-            code: Code::NATIVE,
+            code: Code::native(),
             tasks: vec![case],
         }]);
         let seconds = read[0][0].as_ref().expect("a run").provenance.seconds;
@@ -116,7 +116,7 @@ struct Silent;
 impl Progress for Silent {
     fn planned(&self, _: &str, _: usize, _: usize, _: f64) {}
     fn advanced(&self, _: f64) {}
-    fn finished(&self, _: Code, _: &dyn std::fmt::Display, _: Result<Option<f64>, &Failure>) {}
+    fn finished(&self, _: &Code, _: &dyn std::fmt::Display, _: Result<Option<f64>, &Failure>) {}
     fn warn(&self, _: &str) {}
 }
 

@@ -173,7 +173,7 @@ struct Silent;
 impl Progress for Silent {
     fn planned(&self, _: &str, _: usize, _: usize, _: f64) {}
     fn advanced(&self, _: f64) {}
-    fn finished(&self, _: Code, _: &dyn Display, _: Result<Option<f64>, &Failure>) {}
+    fn finished(&self, _: &Code, _: &dyn Display, _: Result<Option<f64>, &Failure>) {}
     fn warn(&self, _: &str) {}
 }
 
@@ -193,13 +193,13 @@ fn after_settling(
         interrupt: &Interrupt::new(),
     };
     let recorded = SelectedCode {
-        name: code,
+        name: code.clone(),
         code: None,
     };
-    let codes = [recorded, SelectedCode::find(Code::NATIVE)];
+    let codes = [recorded, SelectedCode::find(Code::native())];
     let mut probed = probe_all(&codes[..1], &settings, &Silent).remove(0);
     change(&mut probed.as_mut().expect("it is recorded").settled);
-    let code = settled_by(code, &probed);
+    let code = settled_by(&code, &probed);
     let campaign = Campaign::new(&codes, &settings, &Silent);
     let stack = Stack::paper(0.3, 1e2);
     let mut force = campaign.carry_out(vec![plan(&code, &stack, code.convention())]);
@@ -242,7 +242,8 @@ fn settled_with(code: Code, floor_arm: f64) -> SettledCode {
         provenance: Provenance::now(identity, String::new(), Vec::new(), 1, 1.0),
         answers,
     };
-    settled_by(code, &read_probe(code, record))
+    let probed = read_probe(&code, record);
+    settled_by(&code, &probed)
 }
 
 /// Neither measurement knows of the other: each plans by its own arm, and is held to its own limit.
@@ -257,7 +258,7 @@ fn one_code_is_measured_twice_in_one_process() {
     assert_eq!(code.as_declared(), None);
     let stack = Stack::paper(0.3, 1e2);
     let arms = [0.0, -0.5, 0.0];
-    let measured = arms.map(|arm| settled_with(code, arm));
+    let measured = arms.map(|arm| settled_with(code.clone(), arm));
     let limits = measured.each_ref().map(|settled| {
         let planned = plan(settled, &stack, settled.convention());
         assert_eq!(planned.cases[0].convention, settled.convention());
@@ -265,7 +266,7 @@ fn one_code_is_measured_twice_in_one_process() {
     });
     for (arm, settled) in arms.iter().zip(&measured) {
         assert_eq!(settled.convention().arms.floor.torque, *arm);
-        assert_eq!(settled.name(), code);
+        assert_eq!(*settled.name(), code);
     }
     assert_eq!(limits[0], limits[2]);
     assert!(
@@ -360,7 +361,7 @@ fn findings(
 ) -> Vec<(String, Option<f64>, Option<f64>, Verdict)> {
     let declared = Declaration {
         left_out: ConventionKey::ALL.into(),
-        ..Code::NATIVE.declaration()
+        ..Code::native().declaration()
     };
     let properties = probe(&declared, |tests| {
         let altered = tests.iter().map(|test| {
@@ -378,7 +379,7 @@ fn findings(
     });
     let properties = properties.expect("finite motions").into_iter();
     let findings = properties.map(|own| {
-        let found = own.judge(Code::NATIVE, "");
+        let found = own.judge(&Code::native(), "");
         (
             found.property,
             found.measured,
@@ -398,7 +399,7 @@ fn turning(own: HistoryUpdate, declared: HistoryUpdate, law: Law) -> Vec<Finding
     let declared = Declaration {
         convention: with(declared),
         in_space: false,
-        ..Code::NATIVE.declaration()
+        ..Code::native().declaration()
     };
     let properties = probe(&declared, |tests| {
         let motions = tests.iter().map(|test| {
@@ -414,7 +415,9 @@ fn turning(own: HistoryUpdate, declared: HistoryUpdate, law: Law) -> Vec<Finding
         motions.collect::<Result<Vec<Motion>, _>>()
     });
     let properties = properties.expect("finite motions").into_iter();
-    properties.map(|own| own.judge(Code::NATIVE, "")).collect()
+    properties
+        .map(|own| own.judge(&Code::native(), ""))
+        .collect()
 }
 
 /// In a single step a fixed spring and a projected one have the same part along the tangent.

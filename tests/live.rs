@@ -163,8 +163,8 @@ fn all_installed_codes_have_onset_and_peak_of_a_stack_whose_bottom_cylinders_tou
 
 #[test]
 fn all_installed_codes_follow_their_native_twins() {
-    let mut external = Code::all();
-    external.retain(|&code| code != Code::NATIVE);
+    let mut external = Code::built_in();
+    external.retain(|code| !code.is_native());
     let installed = common::installed(&external);
     if installed.is_empty() {
         return;
@@ -246,7 +246,7 @@ fn a_live_run_leaves_deck_output_and_series_for_inspection() {
 /// What is measured now is what the passports on file say of the same versions.
 #[test]
 fn all_installed_codes_mean_by_a_contact_what_their_adapter_declares() {
-    let codes = [vec![Code::NATIVE], installed()].concat();
+    let codes = [vec![Code::native()], installed()].concat();
     let names = listed(&codes);
     let bench = Bench::with_system_programs();
     let line = format!("probe --codes {names} --passports filed --format json");
@@ -297,7 +297,7 @@ fn a_convention_that_is_left_out_is_measured_and_gives_the_same_verdicts() {
 #[test]
 fn a_live_run_repeats_its_recording() {
     for code in installed() {
-        let mut runs = recording(code).runs.into_iter();
+        let mut runs = recording(&code).runs.into_iter();
         let recorded = runs.find_map(|run| Some((run.summary.case, run.series?)));
         let (case, series) = recorded.expect("a recorded series");
         let bench = Bench::with_system_programs();
@@ -391,7 +391,7 @@ fn cases_of_both_preparations_come_back_in_order() {
             match result {
                 Ok(run) => assert_eq!(run.case, [ramp, walls, ramp][*index]),
                 Err(failure) => {
-                    assert_eq!((name, *index), (named("lammps"), 1), "{failure}");
+                    assert_eq!((name.clone(), *index), (named("lammps"), 1), "{failure}");
                     assert!(matches!(failure.kind, FailureKind::Unsupported(_)));
                 }
             }

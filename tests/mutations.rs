@@ -191,6 +191,7 @@ impl ContactModel<f64> for Twin {
 
 /// The twin at the place of the native code.
 struct TwinEngine {
+    name: Code,
     identity: Identity,
     mutation: Mutation,
 }
@@ -198,8 +199,9 @@ struct TwinEngine {
 impl TwinEngine {
     fn selected(mutation: Mutation) -> SelectedCode {
         SelectedCode {
-            name: Code::NATIVE,
+            name: Code::native(),
             code: Some(Box::new(Self {
+                name: Code::native(),
                 identity: Identity {
                     code: "native".to_owned(),
                     version: format!("{mutation:?}"),
@@ -218,7 +220,7 @@ impl TwinEngine {
         let twin = Twin::new(&case.convention, ratio, self.mutation);
         compress_stack_with(case, twin, || true).map_err(|error| {
             Box::new(Failure {
-                code: Code::NATIVE,
+                code: Code::native(),
                 subject: case.to_string(),
                 kind: error.into(),
                 run_directory: None,
@@ -229,8 +231,8 @@ impl TwinEngine {
 }
 
 impl InstalledCode for TwinEngine {
-    fn name(&self) -> Code {
-        Code::NATIVE
+    fn name(&self) -> &Code {
+        &self.name
     }
 
     fn identity(&self) -> &Identity {
@@ -248,7 +250,7 @@ impl InstalledCode for TwinEngine {
                 series,
                 provenance: Provenance::now(
                     self.identity.clone(),
-                    Code::NATIVE.deck_hash(case),
+                    Code::native().deck_hash(case),
                     Vec::new(),
                     case.total_steps(),
                     0.0,
@@ -283,7 +285,7 @@ struct Silent;
 impl Progress for Silent {
     fn planned(&self, _: &str, _: usize, _: usize, _: f64) {}
     fn advanced(&self, _: f64) {}
-    fn finished(&self, _: Code, _: &dyn std::fmt::Display, _: Result<Option<f64>, &Failure>) {}
+    fn finished(&self, _: &Code, _: &dyn std::fmt::Display, _: Result<Option<f64>, &Failure>) {}
     fn warn(&self, _: &str) {}
 }
 
@@ -333,7 +335,7 @@ fn a_term_of_third_order_in_the_turn_of_a_step_is_no_arm() {
     assert!((coefficient + 1.0 / 6.0).abs() <= uncertainty && uncertainty < 1e-3);
     let (arm, uncertainty) = measured(&sine, "floor_kinematic_arm").expect("it is found");
     assert!(arm.abs() <= uncertainty && uncertainty < 1e-9, "{arm:e}");
-    let effects = passport(Code::NATIVE, &sine).time_step_effects();
+    let effects = passport(&Code::native(), &sine).time_step_effects();
     let effect = "floor: a surface that turns by d in a step moves by d - 0.1667 d^3";
     assert_eq!(effects, [effect]);
 
@@ -342,7 +344,7 @@ fn a_term_of_third_order_in_the_turn_of_a_step_is_no_arm() {
     let (_, uncertainty) = measured(&cubed, "floor_kinematic_arm").expect("a number");
     assert!(uncertainty > 1e-9, "{uncertainty:e}");
     assert!(
-        passport(Code::NATIVE, &cubed)
+        passport(&Code::native(), &cubed)
             .time_step_effects()
             .is_empty()
     );
@@ -521,7 +523,7 @@ fn a_wrong_declaration_is_noticed_and_nothing_is_judged_by_it() {
     };
     let declared = tristack::code::Declaration {
         convention: wrong,
-        ..Code::NATIVE.declaration()
+        ..Code::native().declaration()
     };
     let properties = tristack::study::convention::probe(&declared, |tests| {
         let honest: Vec<ContactTest> = tests
@@ -540,7 +542,7 @@ fn a_wrong_declaration_is_noticed_and_nothing_is_judged_by_it() {
     .expect("finite motions");
     let findings = properties
         .into_iter()
-        .map(|property| property.judge(Code::NATIVE, ""));
+        .map(|property| property.judge(&Code::native(), ""));
     let off: Vec<String> = findings
         .filter(|finding| finding.verdict == Verdict::Differs)
         .map(|finding| finding.property)

@@ -107,7 +107,7 @@ fn every_code_works_in_directories_of_any_name() {
 fn works_in_directories_of_any_name(code: Code) {
     let bench = Bench::with_system_programs();
     let case = bench.path("case.json");
-    fs::write(&case, short_case(code).to_json()).expect("a case");
+    fs::write(&case, short_case(code.clone()).to_json()).expect("a case");
     let line = format!("simulate --code {code} --format json");
     let plain = bench.path("plain");
     succeed(
@@ -118,7 +118,7 @@ fn works_in_directories_of_any_name(code: Code) {
             .arg(flag("out", &plain)),
     );
     let expected = fs::read(plain.join("series.csv")).expect("a series");
-    for name in names(code) {
+    for name in names(code.clone()) {
         // Relative, so that a leading dash stays one.
         let out = Path::new(named(name));
         succeed(
@@ -142,13 +142,13 @@ fn every_code_finds_its_way_from_and_through_names_of_any_kind() {
 
 fn finds_its_way(code: Code) {
     let bench = Bench::with_system_programs();
-    let here = nested(&bench.path("here"), code);
-    let temporary = nested(&bench.path("temporary"), code);
+    let here = nested(&bench.path("here"), code.clone());
+    let temporary = nested(&bench.path("temporary"), code.clone());
     for directory in [&here, &temporary] {
         fs::create_dir_all(directory).expect("a directory");
     }
     let case = here.join("-$(touch touched)\n'case\".json");
-    fs::write(&case, short_case(code).to_json()).expect("a case");
+    fs::write(&case, short_case(code.clone()).to_json()).expect("a case");
     let file = Path::new(case.file_name().expect("a name"));
     let line = format!("simulate --code {code} --format json");
     let run = |out: Option<&Path>| {
@@ -173,7 +173,7 @@ fn store_and_results_of_a_crosscheck_may_be_anywhere() {
     let bench = Bench::with_system_programs();
     replay::install(&bench, |_| Disturbance::None);
     let [here, store, temporary] =
-        ["here", "store-", "temporary"].map(|name| nested(&bench.path(name), Code::NATIVE));
+        ["here", "store-", "temporary"].map(|name| nested(&bench.path(name), Code::native()));
     for directory in [&here, &temporary] {
         fs::create_dir_all(directory).expect("a directory");
     }
@@ -200,7 +200,7 @@ fn store_and_results_of_a_crosscheck_may_be_anywhere() {
 #[test]
 fn the_environment_may_name_the_store_in_any_bytes() {
     let bench = Bench::without_codes();
-    let store = nested(&bench.path("store-"), Code::NATIVE);
+    let store = nested(&bench.path("store-"), Code::native());
     let mut command = bench.process("crosscheck --explain native/0.3/100");
     succeed(&bench, command.env("TRISTACK_STORE", &store));
     assert!(store.join("runs").is_dir());

@@ -153,7 +153,7 @@ fn a_code_without_a_deck_for_pyramids_and_a_pyramid_that_is_none_are_refused() {
         assert!(matches!(kind, FailureKind::Unsupported(_)));
     }
     let none = Pyramid::touching(0, 1e3, ContactConvention::TURNING);
-    let native = Code::NATIVE.find().expect("always there");
+    let native = Code::native().find().expect("always there");
     let failure = native.build(&[none], &context).expect_err("no rows");
     assert!(
         failure.to_string().contains("`pyramid.rows` is 0"),
@@ -165,7 +165,7 @@ fn a_code_without_a_deck_for_pyramids_and_a_pyramid_that_is_none_are_refused() {
 fn the_cost_of_a_step_is_measured_for_every_code_and_pyramid() {
     let interrupt = Interrupt::new();
     let directory = tempfile::tempdir().expect("a directory");
-    let mut codes = vec![Code::NATIVE];
+    let mut codes = vec![Code::native()];
     codes.extend(installed(&builders()));
     let bench = PyramidBench {
         rows: vec![3, 5],

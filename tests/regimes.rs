@@ -29,7 +29,7 @@ impl Progress for Journal {
         }
     }
     fn advanced(&self, _: f64) {}
-    fn finished(&self, _: Code, _: &dyn std::fmt::Display, _: Result<Option<f64>, &Failure>) {}
+    fn finished(&self, _: &Code, _: &dyn std::fmt::Display, _: Result<Option<f64>, &Failure>) {}
     fn warn(&self, message: &str) {
         self.warnings.lock().unwrap().push(message.to_owned());
     }
@@ -48,7 +48,7 @@ fn settings(store: &Path) -> Settings<'static> {
 
 /// The survey of `plan`; `None` after an interrupt.
 fn try_survey(plan: &SurveyPlan, settings: &Settings, journal: &Journal) -> Option<Survey> {
-    let native = [SelectedCode::find(Code::NATIVE)];
+    let native = [SelectedCode::find(Code::native())];
     regimes::survey(plan, &Campaign::new(&native, settings, journal))
 }
 

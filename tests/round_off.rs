@@ -40,7 +40,7 @@ fn part_of_budget(code: Code, stack: &Stack) -> Option<f64> {
 fn assert_fair(code: Code, stacks: &[Stack]) {
     let parts: Vec<f64> = stacks
         .iter()
-        .filter_map(|stack| part_of_budget(code, stack))
+        .filter_map(|stack| part_of_budget(code.clone(), stack))
         .collect();
     if parts.is_empty() {
         eprintln!("{code} or its twin is not installed: skipped");
@@ -58,7 +58,7 @@ fn native_is_within_its_round_off_of_a_double_double_twin() {
         Stack::paper(0.2, 1e4),
         Stack::paper(CRITICAL_FRICTION, 1e4),
     ];
-    assert_fair(Code::NATIVE, &stacks);
+    assert_fair(Code::native(), &stacks);
 }
 
 #[test]

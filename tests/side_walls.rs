@@ -23,7 +23,7 @@ struct Silent;
 impl Progress for Silent {
     fn planned(&self, _: &str, _total: usize, _reused: usize, _seconds: f64) {}
     fn advanced(&self, _seconds: f64) {}
-    fn finished(&self, _: Code, _: &dyn std::fmt::Display, _: Result<Option<f64>, &Failure>) {}
+    fn finished(&self, _: &Code, _: &dyn std::fmt::Display, _: Result<Option<f64>, &Failure>) {}
     fn warn(&self, message: &str) {
         panic!("{message}");
     }
@@ -43,7 +43,7 @@ fn settings(bench: &Bench) -> Settings<'static> {
 fn study(stacks: &[Stack], relative_pushes: &[f64]) -> Vec<PreparationStudy> {
     let bench = Bench::without_codes();
     let settings = settings(&bench);
-    let codes = [SelectedCode::find(Code::NATIVE)];
+    let codes = [SelectedCode::find(Code::native())];
     let campaign = Campaign::new(&codes, &settings, &Silent);
     study_preparation(&campaign, stacks, relative_pushes, &[]).expect("native runs")
 }

@@ -93,7 +93,7 @@ fn differing(mistake: Mistake) -> Vec<String> {
     let properties = probe(&declared, motions).expect("every test is answered");
     let findings = properties
         .into_iter()
-        .map(|own| own.judge(Code::NATIVE, ""));
+        .map(|own| own.judge(&Code::native(), ""));
     let wrong = findings.filter(|finding| finding.verdict != Verdict::Agrees);
     wrong.map(|finding| finding.property).collect()
 }

@@ -21,7 +21,7 @@ struct Silence;
 impl Progress for Silence {
     fn planned(&self, _: &str, _: usize, _: usize, _: f64) {}
     fn advanced(&self, _: f64) {}
-    fn finished(&self, _: Code, _: &dyn std::fmt::Display, _: Result<Option<f64>, &Failure>) {}
+    fn finished(&self, _: &Code, _: &dyn std::fmt::Display, _: Result<Option<f64>, &Failure>) {}
     fn warn(&self, _: &str) {}
 }
 
@@ -50,13 +50,13 @@ fn carried_out(plan: Trajectory, store: &Path) -> TrajectoryJudgement {
     };
     let codes = [
         SelectedCode {
-            name: plan.code.name(),
+            name: plan.code.name().clone(),
             code: None,
         },
-        SelectedCode::find(Code::NATIVE),
+        SelectedCode::find(Code::native()),
     ];
     // The native code is there by itself.
-    let codes = &codes[usize::from(plan.code.name() == Code::NATIVE)..];
+    let codes = &codes[usize::from(plan.code.name().is_native())..];
     let mut judgements = Campaign::new(codes, &settings, &Silence).carry_out(vec![plan]);
     judgements.pop().expect("one code")
 }
@@ -184,9 +184,9 @@ fn the_collapse_tells_inertia_and_friction_apart_from_errors_of_the_step() {
 fn the_table_of_recorded_runs_holds_what_is_read_off_their_series() {
     let external = Code::of_power(Power::Linear)
         .into_iter()
-        .filter(|&code| code != Code::NATIVE);
+        .filter(|code| !code.is_native());
     for code in external {
-        let recorded = Recorded::embedded().recording(code);
+        let recorded = Recorded::embedded().recording(&code);
         let recorded = recorded.expect("it is not damaged");
         let with_series = recorded.runs.iter().filter_map(|run| {
             let (summary, series) = (&run.summary, run.series.clone()?);
@@ -203,8 +203,8 @@ fn the_table_of_recorded_runs_holds_what_is_read_off_their_series() {
             count += 1;
         }
         assert_eq!(count, 3, "{code}");
-        let (table, archive) = recorded.to_files(code);
-        let again = Recording::from_files(&table, &archive, Path::new("again"), code);
+        let (table, archive) = recorded.to_files(&code);
+        let again = Recording::from_files(&table, &archive, Path::new("again"), &code);
         assert!(again.expect("its own files") == recorded, "{code}");
     }
 }

@@ -76,8 +76,8 @@ fn timed_codes(named: &[Code]) -> Result<Vec<SettledCode>, CliError> {
             installed_codes,
         ));
     }
-    let mut names = vec![Code::NATIVE];
-    names.extend(named);
+    let mut names = vec![Code::native()];
+    names.extend_from_slice(named);
     let codes = selected_codes(&names)?;
     settle(&codes, &RunOptions::default())
 }

@@ -44,7 +44,7 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
                 ..RunContext::new(&place, &INTERRUPT)
             };
             let phase = format!("checking {}", shown(Path::new(folder)));
-            let report = during(&phase, || check_code(code, folder, &context));
+            let report = during(&phase, || check_code(&code, folder, &context));
             report.map_err(FileError::writing(&place))?
         }
         Err(error) => Report::of_manifest(&error.to_string(), folder),

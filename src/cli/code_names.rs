@@ -35,7 +35,7 @@ impl TypedValueParser for CodeParser {
                 let names = PossibleValuesParser::new(shown_names());
                 names
                     .parse_ref(command, argument, value)
-                    .map(|_| Code::NATIVE)
+                    .map(|_| Code::native())
             }
         }
     }
@@ -75,7 +75,9 @@ fn shown_names() -> Vec<String> {
 
 /// The names of the codes that are known, and of the user's folders.
 fn names() -> Vec<String> {
-    let known = Code::all().into_iter().map(|code| code.as_str().to_owned());
+    let known = Code::built_in()
+        .into_iter()
+        .map(|code| code.as_str().to_owned());
     let folders = user_folders().into_iter().filter_map(|folder| {
         let name = folder.file_name()?.to_str()?;
         Some(name.to_owned())
@@ -129,10 +131,15 @@ fn user_folders() -> Vec<PathBuf> {
     folders
 }
 
-/// Adds the codes of the user's folders to those that are known; returns what is wrong with the others.
-pub(super) fn read_user_folders() -> Vec<ManifestError> {
-    let folders = user_folders().into_iter();
-    folders
-        .filter_map(|folder| Code::all_in_folder(&folder).err())
-        .collect()
+/// The codes of this program and those of the user's folders, and what is wrong with the other folders.
+pub(super) fn known_codes() -> (Vec<Code>, Vec<ManifestError>) {
+    let (mut known, mut errors) = (Code::built_in(), Vec::new());
+    for folder in user_folders() {
+        let read = Code::all_in_folder(&folder);
+        match read.and_then(|own| Code::side_by_side(&[known.clone(), own].concat())) {
+            Ok(all) => known = all,
+            Err(error) => errors.push(error),
+        }
+    }
+    (known, errors)
 }

@@ -1,6 +1,6 @@
 //! `tristack codes`.
 
-use super::code_names::read_user_folders;
+use super::code_names::known_codes;
 use super::options::{Format, find_all};
 use super::{CliError, ExitStatus, complain};
 use crate::code::Code;
@@ -21,14 +21,14 @@ pub(super) struct Arguments {
 
 /// Prints every known code, and fails if one that is installed, or a folder of the user, is broken.
 pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, CliError> {
-    let unreadable = read_user_folders();
-    let codes = find_all(&Code::all());
+    let (known, unreadable) = known_codes();
+    let codes = find_all(&known);
     let tables = [inventory(&codes)];
     let people = || tables[0].shown().terminal();
     let printed = arguments.format.print(&tables, command, people);
     let broken = codes.iter().filter_map(|selected| {
         let reason = selected.code.as_ref()?.broken()?;
-        Some((selected.name, reason))
+        Some((selected.name.clone(), reason))
     });
     let broken: Vec<(Code, &str)> = broken.collect();
     for (name, reason) in &broken {

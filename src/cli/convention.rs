@@ -45,11 +45,11 @@ pub(super) fn settle_with(
 }
 
 /// The convention of one code, which is looked up where its manifest leaves something out.
-pub(super) fn settle_one(code: Code, options: &RunOptions) -> Result<SettledCode, CliError> {
+pub(super) fn settle_one(code: &Code, options: &RunOptions) -> Result<SettledCode, CliError> {
     if let Some(declared) = code.as_declared() {
         return Ok(declared);
     }
-    let settled = settle(&[SelectedCode::find(code)], options)?;
+    let settled = settle(&[SelectedCode::find(code.clone())], options)?;
     Ok(settled.into_iter().next().expect("one for each code"))
 }
 

@@ -185,7 +185,7 @@ pub(super) fn conclude(
         }
     }
     tell_stand_ins(codes, |code| {
-        let mut own = judgements.iter().filter(|one| one.code == code);
+        let mut own = judgements.iter().filter(|one| one.code == *code);
         own.any(Judgement::is_recorded)
     });
     tell!("{}", summary(judgements));

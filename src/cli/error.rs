@@ -1,7 +1,7 @@
 //! The exit status and the errors of a command.
 
 use super::INTERRUPT;
-use crate::code::{Code, Failure, FailureKind};
+use crate::code::{Code, Failure, FailureKind, ManifestError};
 use crate::files::FileError;
 use crate::model::{CaseError, InvalidValue, shown};
 use crate::paper::claims::RegisterError;
@@ -86,6 +86,9 @@ pub enum CliError {
     /// The case file is wrong.
     #[error(transparent)]
     Case(#[from] CaseError),
+    /// The folder of a code is wrong.
+    #[error(transparent)]
+    Manifest(#[from] ManifestError),
     /// A file cannot be written or read.
     #[error("{}", in_one_line(.0))]
     Files(#[from] FileError),

@@ -13,7 +13,7 @@ use crate::study::Campaign;
 use crate::study::yield_force::measure_with_twin;
 
 /// One row of a crosscheck.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub(super) struct RowName {
     code: Code,
     mu: Friction,
@@ -60,7 +60,7 @@ pub(super) fn explain(
     let stack = stacks.others.stack(row.mu, row.stiffness, power)?;
     let accepted = row.code.check_stiffness_ratio(stack.stiffness_ratio);
     accepted.map_err(as_flag)?;
-    let codes = find_all(&[row.code]);
+    let codes = find_all(std::slice::from_ref(&row.code));
     let settled = settle(&codes, options)?;
     let measurement = stacks.profile()?.measurement(&settled[0], &stack, power);
     let measurements = vec![match shortcuts {

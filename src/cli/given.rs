@@ -3,7 +3,6 @@
 use super::out::Out;
 use super::simulate::Arguments;
 use super::{CliError, ExitStatus, INTERRUPT, complain};
-use crate::code::Code;
 use crate::files::Layout;
 use crate::model::{InvalidValue, shown};
 use crate::output::{given_runs, given_series, json};
@@ -57,7 +56,7 @@ fn refuse(arguments: &Arguments) -> Result<(), CliError> {
         value,
         accepted: accepted.to_owned(),
     };
-    if arguments.code() != Code::NATIVE {
+    if !arguments.code().is_native() {
         let accepted = "native: no other code does what the authors' program does, which a case with a start is for";
         return Err(invalid("--code", arguments.code().to_string(), accepted).into());
     }

@@ -67,9 +67,9 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
         let convention = arguments.convention.of_contacts(code)?;
         studies.extend(plan_impacts(code, convention));
     }
-    if codes.iter().all(|selected| selected.name != Code::NATIVE) {
+    if codes.iter().all(|selected| !selected.name.is_native()) {
         // Some impacts are compared with native twins.
-        codes.push(SelectedCode::find(Code::NATIVE));
+        codes.push(SelectedCode::find(Code::native()));
     }
     let settings = arguments.run.settings()?;
     let planned = studies.len();
@@ -92,7 +92,7 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
 fn conclude(judgements: &[ImpactJudgement], planned: usize, codes: &[SelectedCode]) -> ExitStatus {
     judgements.iter().for_each(tell_notes);
     tell_stand_ins(codes, |code| {
-        let mut own = judgements.iter().filter(|one| one.code == code);
+        let mut own = judgements.iter().filter(|one| one.code == *code);
         own.any(ImpactJudgement::is_recorded)
     });
     let agreeing = judgements

@@ -72,8 +72,8 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
     })?;
     let code = code(arguments, &plan, &path)?;
     let out = Out::claim(arguments.out.as_deref(), &layout())?;
-    tell_results(&plan, code, root);
-    let results = plan.results(code, &arguments.code_version, root);
+    tell_results(&plan, &code.clone(), root);
+    let results = plan.results(code.clone(), &arguments.code_version, root);
     let codes = [SelectedCode {
         name: code,
         code: Some(Box::new(results)),
@@ -108,9 +108,9 @@ fn one_line(text: &str) -> Result<String, String> {
 /// The code of the plan.
 fn code(arguments: &Arguments, plan: &Plan, path: &Path) -> Result<Code, CliError> {
     let refused = |message: String| FileError::content(path, message);
-    if let Some(code) = arguments.code {
+    if let Some(code) = &arguments.code {
         if code.as_str() == plan.code {
-            return Ok(code);
+            return Ok(code.clone());
         }
         let message = format!(
             "`code` is {}, but --code is {code}; accepted is the code of the plan",
@@ -135,7 +135,7 @@ fn code(arguments: &Arguments, plan: &Plan, path: &Path) -> Result<Code, CliErro
 }
 
 /// Says how many results there are, and which of them cannot be used.
-fn tell_results(plan: &Plan, code: Code, root: &Path) {
+fn tell_results(plan: &Plan, code: &Code, root: &Path) {
     let troubles = plan.troubles(code, root);
     let missing = troubles.iter().flatten();
     let missing = missing
@@ -182,7 +182,7 @@ struct Quiet;
 impl Progress for Quiet {
     fn planned(&self, _: &str, _: usize, _: usize, _: f64) {}
     fn advanced(&self, _: f64) {}
-    fn finished(&self, _: Code, _: &dyn Display, _: Result<Option<f64>, &Failure>) {}
+    fn finished(&self, _: &Code, _: &dyn Display, _: Result<Option<f64>, &Failure>) {}
     fn warn(&self, message: &str) {
         complain!("warning: {message}");
     }

@@ -58,7 +58,7 @@ impl Pictures {
     }
 
     /// Writes those that are asked for, of a run by `code`.
-    pub(super) fn draw(&self, code: Code, run: &Run) -> Result<ExitStatus, CliError> {
+    pub(super) fn draw(&self, code: &Code, run: &Run) -> Result<ExitStatus, CliError> {
         let mut status = ExitStatus::Success;
         if self.svg.is_none() && self.vtk.is_none() {
             return Ok(status);
@@ -143,8 +143,8 @@ fn remove_vtk_rows(directory: &Path) -> Result<(), FileError> {
 
 /// Every sampled moment of the run. The native DEM runs again, with bitwise the same result, because its series
 /// leaves out the forces between the cylinders.
-fn frames(code: Code, run: &Run) -> Result<Frames, CliError> {
-    if code != Code::NATIVE {
+fn frames(code: &Code, run: &Run) -> Result<Frames, CliError> {
+    if !code.is_native() {
         return Ok(Frames::of_series(&run.series, &run.case)?);
     }
     let repeated = compress_stack_into_frames(&run.case, || !INTERRUPT.requested());
@@ -153,7 +153,7 @@ fn frames(code: Code, run: &Run) -> Result<Frames, CliError> {
             true => FailureKind::Interrupted,
             false => error.into(),
         };
-        Box::new(Failure::new(code, &run.case, kind))
+        Box::new(Failure::new(code.clone(), &run.case, kind))
     })?;
     Ok(frames)
 }

@@ -49,7 +49,7 @@ pub(super) struct Arguments {
 
 /// Writes or continues the plan, and prints what it costs.
 pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, CliError> {
-    let (code, root) = (arguments.code, arguments.out.as_path());
+    let (code, root) = (arguments.code.clone(), arguments.out.as_path());
     if !code.has_program() {
         return Err(InvalidValue {
             key: "--code".to_owned(),
@@ -65,7 +65,7 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
     let installed = code.find().filter(|found| found.broken().is_none());
     let is_here = installed.is_some();
     let version = installed.map(|found| found.identity().version.clone());
-    let (plan, prepared) = Plan::new(code, rows, root, command, version)?;
+    let (plan, prepared) = Plan::new(&code, rows, root, command, version)?;
     let out = Out::claimed(root, PLAN);
     let planned = out.write(|| vec![(PLAN, plan.to_json())]);
     if planned != ExitStatus::Success {
@@ -74,8 +74,8 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
     for run in &prepared {
         run.write(root)?;
     }
-    let troubles = plan.troubles(code, root);
-    let listed = out.write(|| lists(code, &open_runs(&plan, &troubles)));
+    let troubles = plan.troubles(&code, root);
+    let listed = out.write(|| lists(&code, &open_runs(&plan, &troubles)));
     let table = [planned_runs(&plan.runs, &troubles)];
     let people = || {
         let expected = match is_here {
@@ -93,7 +93,7 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
 
 /// The rows of the earlier plan, which must be one for the same code, and those that are asked for.
 fn rows(arguments: &Arguments, earlier: Option<&Plan>) -> Result<Vec<PlannedRow>, CliError> {
-    let code = arguments.code;
+    let code = arguments.code.clone();
     let mut rows = Vec::new();
     if let Some(plan) = earlier {
         if plan.code != code.as_str() {
@@ -125,7 +125,7 @@ fn open_runs<'a>(plan: &'a Plan, troubles: &[Option<FailureKind>]) -> Vec<&'a Pl
     open.map(|(run, _)| run).collect()
 }
 
-fn lists(code: Code, open: &[&PlannedRun]) -> Vec<(&'static str, String)> {
+fn lists(code: &Code, open: &[&PlannedRun]) -> Vec<(&'static str, String)> {
     // The limit of runs here is generous; a partition may refuse it.
     let limit = |run: &PlannedRun| {
         let forecast = Duration::try_from_secs_f64(STARTING + SLOWER * run.seconds).ok();

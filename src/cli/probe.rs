@@ -58,8 +58,8 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
     let tables = [probe(&findings)];
     let printed = arguments.format.print(&tables, command, people);
     let known = codes.iter().zip(&probed);
-    let known = known.filter_map(|(own, probed)| Some((own.name, probed.as_ref().ok()?)));
-    let passports: Vec<Passport> = known.map(|(code, own)| passport(code, own)).collect();
+    let known = known.filter_map(|(own, probed)| Some((own.name.clone(), probed.as_ref().ok()?)));
+    let passports: Vec<Passport> = known.map(|(code, own)| passport(&code, own)).collect();
     let filed = match &arguments.passports {
         Some(directory) if is_whole(&probed) => file(directory, &passports, command),
         _ => ExitStatus::Success,
@@ -70,7 +70,7 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
             (ALL_CODES.to_owned(), json(&tables, command)),
         ];
         for own in &passports {
-            let code = own.code;
+            let code = own.code.clone();
             files.push((format!("{code}.json"), passport_json(own, command)));
             files.push((format!("{code}.md"), passport_markdown(own, command)));
         }
@@ -116,7 +116,7 @@ fn conclude(codes: &[SelectedCode], probed: &[Probed], findings: &[Finding]) -> 
         {
             complain!("{} was not probed: {error}", selected.name);
         } else if selected.code.is_none() {
-            let name = selected.name;
+            let name = selected.name.clone();
             tell!("{name} is not installed: its recorded answers stand in for it");
         }
     }
@@ -124,7 +124,7 @@ fn conclude(codes: &[SelectedCode], probed: &[Probed], findings: &[Finding]) -> 
         if let Ok(probe) = result
             && let Some(digits) = probe.few_digits
         {
-            let name = selected.name;
+            let name = selected.name.clone();
             tell!("{name}: its motions are printed with {digits} digits, too few to contradict it");
         }
     }

@@ -181,7 +181,7 @@ impl Progress for Reporter {
         }
     }
 
-    fn finished(&self, code: Code, task: &dyn Display, result: Result<Option<f64>, &Failure>) {
+    fn finished(&self, code: &Code, task: &dyn Display, result: Result<Option<f64>, &Failure>) {
         let (finished, open) = {
             let mut phase = self.phase();
             // An interrupted run is neither made nor has it failed.

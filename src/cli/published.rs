@@ -32,12 +32,7 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
         accepted: "this together with --published DIR, a checkout of the authors' repository"
             .to_owned(),
     })?;
-    if let Some(other) = arguments
-        .codes
-        .named
-        .iter()
-        .find(|&&code| code != Code::NATIVE)
-    {
+    if let Some(other) = arguments.codes.named.iter().find(|code| !code.is_native()) {
         return Err(InvalidValue {
             key: "--codes".to_owned(),
             value: other.to_string(),
@@ -53,7 +48,7 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
         &Layout::tables("published.json", &files),
     )?;
     let settings = arguments.run.settings()?;
-    let native = [SelectedCode::find(Code::NATIVE)];
+    let native = [SelectedCode::find(Code::native())];
     let reporter = Reporter::new();
     let campaign = Campaign::new(&native, &settings, &reporter);
     let Some(published) = Published::repeat(&checkout, &campaign) else {

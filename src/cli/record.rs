@@ -55,13 +55,13 @@ pub(super) struct Arguments {
 pub(super) fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
     let mut external = arguments.codes.clone();
     if external.is_empty() {
-        external = Code::all();
+        external = Code::built_in();
         external.retain(|code| !code.accepts_any_convention());
     }
     let codes = selected_codes(&external)?;
     let directory = recording_directory()?;
     for selected in &codes {
-        Recording::check_place(&directory, selected.name)?;
+        Recording::check_place(&directory, &selected.name)?;
     }
     let settled = settle(&codes, &arguments.run)?;
     let settings = arguments.run.settings()?;
@@ -87,9 +87,9 @@ fn record(
     settings: &Settings,
     directory: &Path,
 ) -> Result<ExitStatus, CliError> {
-    let name = selected.name;
+    let name = selected.name.clone();
     let mut recording = match only {
-        Some(_) => Recorded::new(directory).recording(name)?,
+        Some(_) => Recorded::new(directory).recording(&name)?,
         None => Recording::default(),
     };
     let made = make(
@@ -103,7 +103,7 @@ fn record(
         complain!("{name} is not recorded: {error}");
         return Ok(ExitStatus::CodeFailed);
     }
-    recording.save(directory, name)?;
+    recording.save(directory, &name)?;
     let (count, directory) = (recording.runs.len(), shown(directory));
     tell!(
         "{count} runs of {name} are recorded in {directory}; the next build of the program embeds them"

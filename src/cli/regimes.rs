@@ -63,7 +63,7 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
         &examined_stacks(arguments.history_update),
         arguments.history_update,
     );
-    let native = [SelectedCode::find(Code::NATIVE)];
+    let native = [SelectedCode::find(Code::native())];
     let survey = survey(&plan, &Campaign::new(&native, &settings, &Reporter::new()));
     let Some(survey) = survey else {
         complain!("interrupted: nothing is printed or written; every finished run is kept");

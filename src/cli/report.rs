@@ -81,7 +81,7 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
     let absent = all.filter(|selected| selected.code.is_none());
     let origin = Origin {
         command: command.to_owned(),
-        recorded: absent.map(|selected| selected.name).collect(),
+        recorded: absent.map(|selected| selected.name.clone()).collect(),
         literal: arguments.literal,
     };
     let found = conclude(&reproduced, &claims);
@@ -100,8 +100,8 @@ fn codes_of(named: &[Code], power: Power) -> Result<Vec<SelectedCode>, CliError>
     if named.is_empty() {
         return Ok(find_all(&Code::of_power(power)));
     }
-    let mut own = vec![Code::NATIVE];
-    own.extend(named.iter().filter(|code| code.has_power(power)));
+    let mut own = vec![Code::native()];
+    own.extend(named.iter().filter(|code| code.has_power(power)).cloned());
     selected_codes(&own)
 }
 

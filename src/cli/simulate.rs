@@ -116,7 +116,7 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
         return given::run(arguments, &given, path, command);
     }
     // Micro-tests go to the store, where the other commands find them.
-    let settled = settle_one(arguments.code(), &RunOptions::default())?;
+    let settled = settle_one(&arguments.code(), &RunOptions::default())?;
     let case = case(arguments, &settled)?;
     tell_changed_durations(&case);
     let limit = time_limit(arguments.time_limit)?;
@@ -149,7 +149,7 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
         ExitStatus::Success => out.write(results),
         failed => failed,
     };
-    let drawn = arguments.pictures.draw(arguments.code(), &run)?;
+    let drawn = arguments.pictures.draw(&arguments.code(), &run)?;
     if let Some(problem) = unfinished(&run) {
         tell!("{problem}");
     }
@@ -374,6 +374,6 @@ fn run_layout(arguments: &Arguments, case: &Case) -> Layout {
 impl Arguments {
     /// The code, which is not asked for an example.
     pub(super) fn code(&self) -> Code {
-        self.code.unwrap_or(Code::NATIVE)
+        self.code.clone().unwrap_or(Code::native())
     }
 }

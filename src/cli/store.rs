@@ -1,6 +1,6 @@
 //! `tristack store`.
 
-use super::code_names::read_user_folders;
+use super::code_names::known_codes;
 use super::options::{Format, StoreOptions, moment, size as size_option};
 use super::{CliError, ExitStatus, print, tell};
 use crate::model::{InvalidValue, shown};
@@ -117,17 +117,14 @@ impl ValueEnum for EntryKind {
 impl Choice {
     /// Those of `contents` that are meant.
     fn of(&self, contents: Vec<Content>) -> Vec<Content> {
-        if self.outdated {
-            // Codes of the user's folders are known by name from then on; broken folders are others' concern.
-            read_user_folders();
-        }
         let selection = Selection {
             kinds: self.kind.clone(),
             codes: self.code.clone(),
             before: self.older_than,
             outdated: self.outdated,
         };
-        selection.of(contents)
+        // Broken folders are others' concern.
+        selection.of(contents, &mut CodesOfToday::new(known_codes().0))
     }
 }
 
@@ -166,7 +163,6 @@ fn list(arguments: &ListArguments, command: &str) -> Result<ExitStatus, CliError
 
 fn show(arguments: &ShowArguments, command: &str) -> Result<ExitStatus, CliError> {
     let (root, all) = open(&arguments.store)?;
-    read_user_folders();
     let named = with_address(all, &arguments.address);
     let is_one = named
         .iter()
@@ -178,7 +174,7 @@ fn show(arguments: &ShowArguments, command: &str) -> Result<ExitStatus, CliError
     let files: Vec<StoredFile> = files.collect();
     let tables = [stored_entries(&named), stored_files(&files)];
     let people = || {
-        let mut today = CodesOfToday::default();
+        let mut today = CodesOfToday::new(known_codes().0);
         let texts = named
             .iter()
             .map(|one| entry_text(one, today.is_outdated(one)));

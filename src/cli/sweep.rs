@@ -64,11 +64,11 @@ fn without_runs(mut judgement: Judgement) -> Judgement {
 
 /// Measures the curve, prints and writes its rows.
 pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, CliError> {
-    let code = settle_one(arguments.code, &arguments.run)?;
+    let code = settle_one(&arguments.code, &arguments.run)?;
     let convention = arguments.convention.of(&code, arguments.stack.bodies())?;
     let accepted = arguments.code.check_shortcuts(arguments.shortcuts);
     accepted.map_err(as_flag)?;
-    let codes = selected_codes(&[arguments.code])?;
+    let codes = selected_codes(std::slice::from_ref(&arguments.code))?;
     let stacks = arguments.stack.stacks(convention.law.power)?;
     for stack in &stacks {
         let accepted = arguments.code.check_stiffness_ratio(stack.stiffness_ratio);

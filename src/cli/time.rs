@@ -80,7 +80,7 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
     let printed = arguments.format.print(&tables, command, people);
     tell_stand_ins(&codes, |code| {
         let mut rows = rows.iter();
-        rows.any(|row| row.runs.code == code && row.runs.there > 0)
+        rows.any(|row| row.runs.code == *code && row.runs.there > 0)
     });
     Ok(printed)
 }

@@ -48,14 +48,14 @@ pub(super) struct Arguments {
 pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, CliError> {
     refuse_native(&arguments.codes.named)?;
     let mut codes = selected_codes(&arguments.codes.named)?;
-    codes.retain(|selected| selected.name != Code::NATIVE);
+    codes.retain(|selected| !selected.name.is_native());
     let files = ["trajectories.csv", "trajectories.md"];
     let layout = Layout::tables("trajectories.json", &files);
     let out = Out::claim(arguments.out.as_deref(), &layout)?;
     let settings = arguments.run.settings()?;
     let settled = settle(&codes, &arguments.run)?;
     let plans = during("planning", || plans(&settled, arguments.bodies));
-    codes.push(SelectedCode::find(Code::NATIVE));
+    codes.push(SelectedCode::find(Code::native()));
     let planned = plans.len();
     let judgements = Campaign::new(&codes, &settings, &Reporter::new()).carry_out(plans);
     let tables = [trajectories(&judgements)];
@@ -86,15 +86,15 @@ pub(super) fn plans(codes: &[SettledCode], bodies: u8) -> Vec<Trajectory> {
 }
 
 fn refuse_native(named: &[Code]) -> Result<(), InvalidValue> {
-    if !named.contains(&Code::NATIVE) {
+    if !named.iter().any(Code::is_native) {
         return Ok(());
     }
-    let mut others = Code::all();
-    others.retain(|&code| code != Code::NATIVE);
-    let others = others.into_iter().map(Code::as_str);
+    let mut others = Code::built_in();
+    others.retain(|code| !code.is_native());
+    let others = others.iter().map(Code::as_str);
     Err(InvalidValue {
         key: "--codes".to_owned(),
-        value: Code::NATIVE.to_string(),
+        value: Code::native().to_string(),
         accepted: format!(
             "{}: the native code is what they are compared with",
             others.collect::<Vec<_>>().join(", ")
@@ -110,7 +110,7 @@ fn conclude(
 ) -> ExitStatus {
     judgements.iter().for_each(tell_notes);
     tell_stand_ins(codes, |code| {
-        let mut own = judgements.iter().filter(|one| one.code == code);
+        let mut own = judgements.iter().filter(|one| one.code == *code);
         own.any(|one| one.is_recorded())
     });
     let verdicts = judgements.iter().flat_map(TrajectoryJudgement::verdicts);
@@ -135,7 +135,7 @@ fn tell_notes(judgement: &TrajectoryJudgement) {
     }
     for comparison in judgement.comparisons() {
         for note in comparison.grounds.notes() {
-            let (code, verdict) = (judgement.code, comparison.verdict());
+            let (code, verdict) = (judgement.code.clone(), comparison.verdict());
             let twin = comparison.twin.as_str();
             let (branch, quantity) = (comparison.branch.as_str(), comparison.quantity.as_str());
             tell!("{verdict}: {code}, {twin} twin, {branch}, {quantity}: {note}");

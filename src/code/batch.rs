@@ -45,7 +45,7 @@ impl<'a, T: Task> Batch<'a, T> {
         };
         Self {
             code,
-            result: code.definition.result(tasks[0].kind()),
+            result: code.definition().result(tasks[0].kind()),
             tasks,
             directory,
             task_directories,
@@ -96,16 +96,16 @@ impl<'a, T: Task> Batch<'a, T> {
             accepted.map_err(FailureKind::Unsupported)?;
             let directory = self.task_directory(index);
             fs::create_dir_all(&directory).map_err(FileError::writing(&directory))?;
-            let files = self.code.definition.files_of(task);
+            let files = self.code.definition().files_of(task);
             for (name, content) in files.map_err(FailureKind::Unsupported)? {
                 write(&directory.join(name), content.as_bytes())?;
             }
             // Files of an earlier run must not pass for results of this one.
-            for stale in self.code.program.logs.iter().chain([&self.result.file]) {
+            for stale in self.code.program().logs.iter().chain([&self.result.file]) {
                 remove(&directory.join(stale))?;
             }
         }
-        for (name, content) in self.code.definition.files(self.tasks[0].kind()) {
+        for (name, content) in self.code.definition().files(self.tasks[0].kind()) {
             write(&self.directory.join(name), content)?;
         }
         Ok(())
@@ -128,7 +128,7 @@ impl<'a, T: Task> Batch<'a, T> {
             command: &command,
             directory: &directory,
             home: &std::path::absolute(home.path())?,
-            environment: &self.code.program.environment,
+            environment: &self.code.program().environment,
             time_limit: self.time_limit(context),
             interrupt: context.interrupt,
         };
@@ -140,7 +140,7 @@ impl<'a, T: Task> Batch<'a, T> {
 
     fn time_limit(&self, context: &RunContext) -> Duration {
         let steps = self.tasks.iter().map(Task::steps).max();
-        let longest = self.code.definition.time_limit(steps.unwrap_or(0));
+        let longest = self.code.definition().time_limit(steps.unwrap_or(0));
         context.time_limit.unwrap_or(longest)
     }
 
@@ -156,7 +156,7 @@ impl<'a, T: Task> Batch<'a, T> {
 
     fn is_complete(&self, index: usize) -> bool {
         let file = self.task_directory(index).join(&self.result.file);
-        self.code.definition.runs_many() && is_regular(&file)
+        self.code.definition().runs_many() && is_regular(&file)
     }
 
     fn task_directory(&self, index: usize) -> PathBuf {
@@ -189,11 +189,11 @@ impl<'a, T: Task> Batch<'a, T> {
 
     fn fail(&mut self, index: usize, kind: FailureKind, report: Report<T>) {
         let failure = Failure {
-            code: self.code.name,
+            code: self.code.name.clone(),
             subject: self.tasks[index].to_string(),
             kind,
             run_directory: Some(self.task_directory(index)),
-            last_lines: last_lines(&self.directory, &self.code.program.logs),
+            last_lines: last_lines(&self.directory, &self.code.program().logs),
         };
         self.report(index, Err(failure), report);
     }

@@ -1,10 +1,10 @@
 //! A code that is installed and does not work. Recorded runs do not stand in for it: every task fails.
 
+use super::described::Code;
 use super::failure::{Failure, FailureKind};
 use super::installed::{Batching, Finished, InstalledCode, RunContext};
 use super::provenance::{Identity, Run};
 use super::question::interrupt;
-use super::registry::Code;
 use crate::model::{Case, ContactTest, Pyramid, shown};
 use crate::series::{Motion, PyramidRun};
 use std::path::Path;
@@ -27,10 +27,11 @@ impl BrokenCode {
             FailureKind::Ended(status) => format!("ended with {status}, at every attempt"),
             other => other.to_string(),
         };
+        let code = name.as_str().to_owned();
         Self {
             name,
             identity: Identity {
-                code: name.as_str().to_owned(),
+                code,
                 version: BROKEN.to_owned(),
                 package: None,
                 program_hash: None,
@@ -49,13 +50,13 @@ impl BrokenCode {
             true => FailureKind::Interrupted,
             false => FailureKind::Broken(self.reason.clone()),
         };
-        Failure::new(self.name, task, kind)
+        Failure::new(self.name.clone(), task, kind)
     }
 }
 
 impl InstalledCode for BrokenCode {
-    fn name(&self) -> Code {
-        self.name
+    fn name(&self) -> &Code {
+        &self.name
     }
 
     fn identity(&self) -> &Identity {

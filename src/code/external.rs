@@ -1,11 +1,11 @@
 //! The interface of an installed external code, whose program is given its tasks in batches.
 
 use super::batch::Batch;
+use super::described::Code;
 use super::failure::{Failure, FailureKind};
 use super::installation::ExternalCode;
 use super::installed::{Batching, Finished, InstalledCode, RunContext};
 use super::provenance::{Identity, Provenance, Run};
-use super::registry::Code;
 use super::task::Task;
 use crate::model::{Case, ContactTest, InvalidValue, Pyramid};
 use crate::series::{Motion, PyramidRun, Series};
@@ -29,7 +29,7 @@ impl ExternalCode {
         all_or_nothing: bool,
         finished: Finished<(T::Outcome, f64)>,
     ) {
-        let many = self.definition.runs_many();
+        let many = self.definition().runs_many();
         let at_once = if many { range.len() } else { 1 };
         let mut next = range.start;
         while next < range.end {
@@ -88,13 +88,13 @@ impl ExternalCode {
     }
 
     fn unsupported(&self, task: &impl Task, refusal: InvalidValue) -> Failure {
-        Failure::new(self.name, task, FailureKind::Unsupported(refusal))
+        Failure::new(self.name.clone(), task, FailureKind::Unsupported(refusal))
     }
 }
 
 impl InstalledCode for ExternalCode {
-    fn name(&self) -> Code {
-        self.name
+    fn name(&self) -> &Code {
+        &self.name
     }
 
     fn identity(&self) -> &Identity {
@@ -106,7 +106,7 @@ impl InstalledCode for ExternalCode {
     }
 
     fn batching(&self) -> Batching {
-        match self.definition.runs_many() {
+        match self.definition().runs_many() {
             true => Batching::FewCalls,
             false => Batching::OneCallACase,
         }

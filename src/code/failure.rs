@@ -1,6 +1,6 @@
 //! Failed runs, with everything needed to find the cause.
 
-use super::registry::Code;
+use super::described::Code;
 use crate::files::FileError;
 use crate::model::{InvalidValue, shown};
 use crate::series::SeriesError;

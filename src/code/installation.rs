@@ -3,12 +3,12 @@
 use super::broken::BrokenCode;
 use super::covered::CoveredFiles;
 use super::definition::LONGEST_START;
+use super::described::Code;
 use super::failure::FailureKind;
 use super::installed::InstalledCode;
 use super::manifest::{Definition, Environment, Program, TaskKind, VersionQuestion};
 use super::provenance::Identity;
 use super::question::answer;
-use super::registry::Code;
 use super::search_path::find_program;
 use crate::model::{readable, shown};
 use std::ffi::OsString;
@@ -21,8 +21,6 @@ const UNKNOWN: &str = "unknown";
 /// An external code whose program is installed.
 pub(crate) struct ExternalCode {
     pub name: Code,
-    pub definition: &'static Definition,
-    pub program: &'static Program,
     /// First word of the command: that of the manifest, or a build in another precision.
     word: String,
     /// The file that was found.
@@ -36,7 +34,7 @@ impl ExternalCode {
     /// The code `name` with the program `word`, looked for where the manifest says. The package manager or the program itself is
     /// asked for the version; a program that gives no answer within [`LONGEST_START`], or is ended by a signal, is
     /// broken: its runs would be kept under a wrong name.
-    pub fn find(name: Code, word: &str) -> Option<Box<dyn InstalledCode>> {
+    pub fn find(name: &Code, word: &str) -> Option<Box<dyn InstalledCode>> {
         let program = name.definition().program.as_ref()?;
         let directories = program
             .search
@@ -44,28 +42,22 @@ impl ExternalCode {
             .map(|directory| directory.get_ref().as_str());
         let file = find_program(directories, word)?;
         Some(match identify(&file, program) {
-            Ok((version, package)) => Box::new(Self::identified(
-                name, program, word, file, version, package,
-            )),
-            Err(kind) => Box::new(BrokenCode::new(name, &file, &kind)),
+            Ok(version) => Box::new(Self::identified(name, program, word, file, version)),
+            Err(kind) => Box::new(BrokenCode::new(name.clone(), &file, &kind)),
         })
     }
 
     fn identified(
-        name: Code,
-        program: &'static Program,
+        name: &Code,
+        program: &Program,
         word: &str,
         file: PathBuf,
-        version: String,
-        package: Option<String>,
+        (version, package): (String, Option<String>),
     ) -> Self {
         let arguments = program.command.get(1..).unwrap_or_default();
         let decks = name.definition().decks();
         let covered = CoveredFiles::of(&file, arguments, &program.environment, decks);
         let mut code = Self {
-            name,
-            definition: name.definition(),
-            program,
             word: word.to_owned(),
             identity: Identity {
                 code: name.as_str().to_owned(),
@@ -77,9 +69,21 @@ impl ExternalCode {
             },
             file,
             covered,
+            name: name.clone(),
         };
         code.identity.witness = code.witness();
         code
+    }
+
+    /// The manifest of the code.
+    pub fn definition(&self) -> &Definition {
+        self.name.definition()
+    }
+
+    /// Its program.
+    pub fn program(&self) -> &Program {
+        let program = self.definition().program.as_ref();
+        program.expect("a code without a program is not looked for")
     }
 
     /// Refuses a program that has been replaced, or of which a file has, since it was found.
@@ -109,7 +113,7 @@ impl ExternalCode {
 
     /// Program and arguments that carry out tasks of one kind in `directories`.
     pub fn command(&self, kind: TaskKind, directories: &[String]) -> Vec<String> {
-        let mut command = self.definition.command(kind, directories);
+        let mut command = self.definition().command(kind, directories);
         command[0].clone_from(&self.word);
         command
     }
@@ -203,6 +207,6 @@ mod tests {
     #[test]
     fn a_program_that_does_not_exist_is_not_installed() {
         let code = Code::named("yade").unwrap();
-        assert!(ExternalCode::find(code, "tristack-has-no-such-code").is_none());
+        assert!(ExternalCode::find(&code, "tristack-has-no-such-code").is_none());
     }
 }

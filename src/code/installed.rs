@@ -1,9 +1,9 @@
 //! The interface of an installed code.
 
+use super::described::Code;
 use super::failure::Failure;
 use super::interrupt::Interrupt;
 use super::provenance::{Identity, Run};
-use super::registry::Code;
 use crate::model::{Case, ContactTest, Pyramid};
 use crate::series::{Motion, PyramidRun};
 use std::path::Path;
@@ -62,7 +62,7 @@ pub type Finished<'a, T> = &'a mut dyn FnMut(usize, Result<T, Failure>);
 /// A code that is installed here.
 pub trait InstalledCode: Send + Sync {
     /// The name of the code.
-    fn name(&self) -> Code;
+    fn name(&self) -> &Code;
 
     /// The program behind its numbers.
     fn identity(&self) -> &Identity;

@@ -9,6 +9,7 @@ mod columns;
 mod convention;
 mod covered;
 mod definition;
+mod described;
 mod difference;
 mod external;
 mod failure;
@@ -29,7 +30,6 @@ mod planned;
 mod process;
 mod provenance;
 mod question;
-mod registry;
 mod result_files;
 mod search_path;
 mod settled;
@@ -38,6 +38,7 @@ mod witness;
 mod written;
 
 pub use convention::{ConventionKey, Declaration, Settled, Unknown};
+pub use described::Code;
 pub use failure::{Failure, FailureKind};
 pub use format::{ParameterFormat, ResultFormat, pyramid_in_log};
 pub(crate) use full_parameters::PARAMETERS;
@@ -49,14 +50,13 @@ pub use installed::{Batching, Finished, InstalledCode, RunContext};
 pub use interrupt::Interrupt;
 pub(crate) use manifest::{Angle, Colour, Shape};
 pub use manifest::{Definition, TaskKind};
-pub(crate) use manifest_error::ManifestError;
+pub use manifest_error::ManifestError;
 use native::{Arithmetic, Native};
 pub(crate) use native::{observe, repeat};
 pub(crate) use planned::PreparedRun;
 pub use planned::{PlannedRun, PlannedTask};
 pub use provenance::{Identity, Provenance, Run, machine};
 pub use question::let_interrupt_questions;
-pub use registry::Code;
 pub(crate) use result_files::ResultFiles;
 pub use settled::SettledCode;
 pub use task::Task;
@@ -65,8 +65,8 @@ pub(crate) use written::{HOME, keep_evidence};
 
 impl Code {
     /// The code as it is installed here, which may be broken; `None` if it is not installed.
-    pub fn find(self) -> Option<Box<dyn InstalledCode>> {
-        if self == Self::NATIVE {
+    pub fn find(&self) -> Option<Box<dyn InstalledCode>> {
+        if self.is_native() {
             return Some(Box::new(Native::new(Arithmetic::Double)));
         }
         let program = self.definition().program.as_ref()?;
@@ -75,8 +75,8 @@ impl Code {
 
     /// The build of this code that computes with more digits, if it is installed: double-double arithmetic for
     /// native, the `higher_precision` program of the manifest for others. The difference of the two is round-off.
-    pub fn find_precise(self) -> Option<Box<dyn InstalledCode>> {
-        if self == Self::NATIVE {
+    pub fn find_precise(&self) -> Option<Box<dyn InstalledCode>> {
+        if self.is_native() {
             return Some(Box::new(Native::new(Arithmetic::DoubleDouble)));
         }
         let program = self.definition().program.as_ref()?;

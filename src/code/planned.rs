@@ -2,10 +2,10 @@
 //! from there, and no program is started.
 
 use super::checks::stays_inside;
+use super::described::Code;
 use super::failure::FailureKind;
 use super::manifest::{Environment, Program};
 use super::manifest_error::refused;
-use super::registry::Code;
 use super::search_path::{SEARCH_PATH, find_program};
 use super::task::Task;
 use super::written::complaint;
@@ -80,7 +80,7 @@ impl Code {
     /// # Errors
     /// If the code cannot run the task, or its command is not one line.
     pub(crate) fn prepare_elsewhere<T: Task + Into<PlannedTask>>(
-        self,
+        &self,
         task: &T,
         place: &str,
     ) -> Result<PreparedRun, InvalidValue> {
@@ -182,7 +182,7 @@ impl PlannedRun {
     /// inputs, and [`FailureKind::UnusableFile`] if what is there is unusable.
     pub(crate) fn outcome<T: Task>(
         &self,
-        code: Code,
+        code: &Code,
         task: &T,
         root: &Path,
     ) -> Result<T::Outcome, FailureKind> {
@@ -209,7 +209,7 @@ impl PlannedRun {
     }
 
     /// The same for the task that the plan holds; `None` if its outcome is there and usable.
-    pub(crate) fn trouble(&self, code: Code, root: &Path) -> Option<FailureKind> {
+    pub(crate) fn trouble(&self, code: &Code, root: &Path) -> Option<FailureKind> {
         match &self.task {
             PlannedTask::Stack(case) => self.outcome(code, case, root).err(),
             PlannedTask::Motion(test) => self.outcome(code, test, root).err(),

@@ -1,6 +1,6 @@
 //! The origin of a run: program, inputs, time and machine.
 
-use super::registry::Code;
+use super::described::Code;
 use crate::files::system_text;
 use crate::model::{Case, sha256_hex};
 use crate::series::Series;
@@ -34,7 +34,7 @@ impl Identity {
     /// The native code of this program.
     pub(crate) fn native() -> &'static Self {
         static NATIVE: LazyLock<Identity> = LazyLock::new(|| Identity {
-            code: Code::NATIVE.as_str().to_owned(),
+            code: Code::native().as_str().to_owned(),
             version: env!("CARGO_PKG_VERSION").to_owned(),
             package: None,
             program_hash: None,
@@ -48,7 +48,7 @@ impl Identity {
     /// arithmetic that is named after it.
     pub(crate) fn deciding(&self) -> Self {
         let mut deciding = self.clone();
-        if self.code == Code::NATIVE.as_str() {
+        if self.code == Code::native().as_str() {
             let arithmetic = self.version.split_once(' ').map_or("", |(_, rest)| rest);
             deciding.version = arithmetic.to_owned();
         }

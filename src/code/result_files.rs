@@ -1,10 +1,10 @@
 //! A code whose runs were made elsewhere, after a plan.
 
+use super::described::Code;
 use super::failure::{Failure, FailureKind};
 use super::installed::{Batching, Finished, InstalledCode, RunContext};
 use super::planned::PlannedRun;
 use super::provenance::{Identity, Provenance, Run};
-use super::registry::Code;
 use super::task::Task;
 use super::written::last_lines;
 use crate::model::{Case, ContactTest, Pyramid, shown};
@@ -26,10 +26,11 @@ impl ResultFiles {
     /// The results of `runs` by the code `name`, said to be of this `version`, below `root`.
     pub(crate) fn new(name: Code, version: &str, root: &Path, runs: &[PlannedRun]) -> Self {
         let runs = runs.iter().cloned();
+        let code = name.as_str().to_owned();
         Self {
             name,
             identity: Identity {
-                code: name.as_str().to_owned(),
+                code,
                 version: version.to_owned(),
                 package: None,
                 program_hash: None,
@@ -48,14 +49,14 @@ impl ResultFiles {
                 "{root} has no run of {task} with the files of today: the same tristack plan again adds it"
             );
             let kind = FailureKind::NoResult(message);
-            return Err(Failure::new(self.name, task, kind).into());
+            return Err(Failure::new(self.name.clone(), task, kind).into());
         };
-        run.outcome(self.name, task, &self.root).map_err(|kind| {
+        run.outcome(&self.name, task, &self.root).map_err(|kind| {
             let program = self.name.definition().program.as_ref();
             let logs = program.map_or(&[][..], |program| &program.logs);
             Box::new(Failure {
                 last_lines: last_lines(&self.root.join(&run.directory), logs),
-                ..Failure::new(self.name, task, kind)
+                ..Failure::new(self.name.clone(), task, kind)
             })
         })
     }
@@ -73,8 +74,8 @@ impl ResultFiles {
 }
 
 impl InstalledCode for ResultFiles {
-    fn name(&self) -> Code {
-        self.name
+    fn name(&self) -> &Code {
+        &self.name
     }
 
     fn identity(&self) -> &Identity {

@@ -1,7 +1,7 @@
 //! A code under the one convention that plans, references and verdicts hold it to.
 
 use super::convention::Settled;
-use super::registry::Code;
+use super::described::Code;
 use super::task::as_of_cylinders;
 use crate::model::{Case, ContactConvention, InvalidValue, Law, Power};
 use std::sync::Arc;
@@ -37,7 +37,7 @@ pub struct SettledCode {
 impl SettledCode {
     /// The DEM of this program, with the paper's convention as its default.
     pub fn native() -> Self {
-        Code::NATIVE.unmeasured("")
+        Code::native().unmeasured("")
     }
 
     /// `code` under the convention that its probe has settled.
@@ -49,8 +49,8 @@ impl SettledCode {
     }
 
     /// The code itself, by which it is named, whatever is settled.
-    pub fn name(&self) -> Code {
-        self.code
+    pub fn name(&self) -> &Code {
+        &self.code
     }
 
     /// Its convention, with the uncertainty of what was measured, and what is not known.
@@ -96,16 +96,16 @@ impl SettledCode {
 
 impl Code {
     /// The code under its declaration; `None` if that leaves something out, which a probe has to settle first.
-    pub fn as_declared(self) -> Option<SettledCode> {
+    pub fn as_declared(&self) -> Option<SettledCode> {
         let declaration = self.declaration();
         let complete = declaration.left_out.is_empty();
-        complete.then(|| SettledCode::new(self, declaration.unsettled("")))
+        complete.then(|| SettledCode::new(self.clone(), declaration.unsettled("")))
     }
 
     /// The code before any probe, `because` of something: the keys that its manifest leaves out are unknown, so that no
     /// verdict is derived from them.
-    pub fn unmeasured(self, because: &str) -> SettledCode {
-        SettledCode::new(self, self.declaration().unsettled(because))
+    pub fn unmeasured(&self, because: &str) -> SettledCode {
+        SettledCode::new(self.clone(), self.declaration().unsettled(because))
     }
 }
 
@@ -126,6 +126,6 @@ impl SettledCode {
     /// Every built-in code whose normal force grows with this power of the overlap.
     pub(crate) fn of_power(power: Power) -> Vec<Self> {
         let codes = Code::of_power(power).into_iter();
-        codes.filter_map(Code::as_declared).collect()
+        codes.filter_map(|code| code.as_declared()).collect()
     }
 }

@@ -1,10 +1,10 @@
 //! Tasks: cases, micro-tests and pyramids, each with its inputs and its outcome.
 
+use super::described::Code;
 use super::format::pyramid_in_log;
 use super::full_parameters;
 use super::manifest::{Definition, ParameterContent, ParameterFile, ResultFile, TaskKind};
 use super::parameters::{self, only_numbers};
-use super::registry::Code;
 use super::written::{STANDARD_ERROR, STANDARD_OUTPUT, read};
 use crate::model::{Case, ContactConvention, ContactTest, InvalidValue, Pyramid, sha256_hex};
 use crate::series::{Motion, PyramidRun, Series, SeriesError};
@@ -202,13 +202,13 @@ impl ParameterFile {
 impl Code {
     /// Refuses a task whose convention contradicts the declaration of the code, or with a stiffness ratio that it cannot
     /// have.
-    pub(crate) fn check_convention_of<T: Task>(self, task: &T) -> Result<(), InvalidValue> {
+    pub(crate) fn check_convention_of<T: Task>(&self, task: &T) -> Result<(), InvalidValue> {
         self.check_declared(&as_of_cylinders(task, &self.declaration().convention))?;
         self.check_stiffness_ratio(task.stiffness_ratio())
     }
 
     /// The files that a run of `task` leaves in its directory, as far as the manifest names them.
-    pub(crate) fn run_files<T: Task>(self, task: &T) -> Vec<String> {
+    pub(crate) fn run_files<T: Task>(&self, task: &T) -> Vec<String> {
         let definition = self.definition();
         let Some(program) = &definition.program else {
             return Vec::new();
@@ -224,7 +224,7 @@ impl Code {
 
     /// Hash of all inputs that this version of tristack gives the code for `task`: files, parameters, command and
     /// environment, and columns that are not what their names say. For the native code its sources take the place of the files.
-    pub fn deck_hash<T: Task>(self, task: &T) -> String {
+    pub fn deck_hash<T: Task>(&self, task: &T) -> String {
         let files_hash = self.files_hash(task.kind());
         self.definition().input_hash(&files_hash, task)
     }

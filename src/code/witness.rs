@@ -52,7 +52,8 @@ impl ExternalCode {
     /// SHA-256 of the motion to ten digits; `None` if the program takes too long to start, has no deck for micro-tests,
     /// or fails.
     pub(super) fn witness(&self) -> Option<String> {
-        if self.definition.seconds.start > LONGEST_HEARD || !self.definition.runs(TaskKind::Motion)
+        if self.definition().seconds.start > LONGEST_HEARD
+            || !self.definition().runs(TaskKind::Motion)
         {
             return None;
         }

@@ -2,7 +2,7 @@
 
 use super::number::{one_digit, plain};
 use super::table::{Columns, DataTable};
-use crate::code::{Code, machine};
+use crate::code::machine;
 use crate::dem::LaneWidth;
 use crate::study::cost::{BenchTarget, PyramidCost, Scaling, ScalingRow, StackCost};
 
@@ -123,7 +123,7 @@ pub fn pyramids(costs: &[PyramidCost]) -> DataTable<'_> {
     let same_pyramid = costs.chunk_by(|one, other| one.rows == other.rows);
     let rows = same_pyramid.flat_map(|costs| {
         let mut all = costs.iter();
-        let native = all.find(|cost| cost.code == Code::NATIVE);
+        let native = all.find(|cost| cost.code.is_native());
         costs.iter().map(move |cost| (cost, native))
     });
     Columns::<PyramidRow>::new(
@@ -134,7 +134,7 @@ pub fn pyramids(costs: &[PyramidCost]) -> DataTable<'_> {
     .number("cylinders", "1", |(cost, _)| cost.cylinders)
     .means("number of cylinders")
     .shown("cylinders")
-    .code(|(cost, _)| cost.code)
+    .code(|(cost, _)| &cost.code)
     .version(|(cost, _)| &cost.version)
     .number("ratio", "1", |(cost, native)| {
         native.map(|native| cost.ratio_to(native))
@@ -173,7 +173,7 @@ mod tests {
 
     #[test]
     fn ratios_are_to_native_lanes() {
-        let liggghts = BenchTarget::External(Code::named("liggghts").unwrap());
+        let liggghts = BenchTarget::External(crate::code::Code::named("liggghts").unwrap());
         let costs = [cost(BenchTarget::NativeLanes, 10.0), cost(liggghts, 2500.0)];
         let ratios = beside_lanes(&costs)
             .iter()

@@ -21,7 +21,7 @@ pub(crate) fn crosscheck(judgements: &[Judgement]) -> DataTable<'_> {
          tables/literal.csv, tables/law_forces.csv, tables/law_scaling.csv)",
     )
     .stack(|row| row.study.stack)
-    .code(|row| row.code)
+    .code(|row| &row.code)
     .version(|row| &row.version)
     .source(|row| row.source)
     .shown("source")
@@ -79,15 +79,18 @@ pub(crate) fn crosscheck_summary(judgements: &[Judgement]) -> DataTable<'_> {
     let mut codes: Vec<Code> = Vec::new();
     for row in judgements {
         if !codes.contains(&row.code) {
-            codes.push(row.code);
+            codes.push(row.code.clone());
         }
     }
-    let of_code = |code: Code| judgements.iter().filter(move |row| row.code == code);
-    let count = move |code: Code, verdict: Verdict| {
+    let of_code = |code: &Code| {
+        let code = code.clone();
+        judgements.iter().filter(move |row| row.code == code)
+    };
+    let count = move |code: &Code, verdict: Verdict| {
         let rows = of_code(code).filter(|row| row.verdict() == verdict);
         rows.count()
     };
-    let worst = move |code: Code| {
+    let worst = move |code: &Code| {
         let judged = of_code(code).filter(|row| row.error().is_some());
         let size = |row: &Judgement| row.error().unwrap_or_default().abs();
         judged.max_by(|one, other| size(one).total_cmp(&size(other)))
@@ -97,39 +100,37 @@ pub(crate) fn crosscheck_summary(judgements: &[Judgement]) -> DataTable<'_> {
         "A row is how many rows of one code have which verdict.",
         "`tristack crosscheck --summary`, `tristack sweep --summary`, `tristack judge --summary`",
     )
-    .code(|code| *code)
-    .number("rows", "1", move |code| of_code(*code).count())
+    .code(|code| code)
+    .number("rows", "1", move |code| of_code(code).count())
     .means("number of rows")
     .shown("rows")
     .number("recorded", "1", move |code| {
-        of_code(*code).filter(|row| row.is_recorded()).count()
+        of_code(code).filter(|row| row.is_recorded()).count()
     })
     .means("number of those that are recorded, not live")
     .shown("recorded")
     .dispensable(3);
     for (name, meaning, verdict) in VERDICTS {
         columns = columns
-            .number(name, "1", move |code| count(*code, verdict))
+            .number(name, "1", move |code| count(code, verdict))
             .means(meaning);
         let has_any =
-            verdict == Verdict::Agrees || codes.iter().any(|&code| count(code, verdict) > 0);
+            verdict == Verdict::Agrees || codes.iter().any(|code| count(code, verdict) > 0);
         // People see no verdict that no row has, but that all agree or none.
         if has_any {
             columns = columns.shown(verdict.as_str());
         }
     }
     columns
-        .number("largest_error", "1", move |code| worst(*code)?.error())
+        .number("largest_error", "1", move |code| worst(code)?.error())
         .means("error of the largest size")
         .shown_as("largest error", relative)
-        .number("largest_error_mu", "1", move |code| {
-            Some(worst(*code)?.mu())
-        })
+        .number("largest_error_mu", "1", move |code| Some(worst(code)?.mu()))
         .means("floor friction μ of the row that has it")
         .shown_as("at mu", friction)
         .dispensable(2)
         .number("largest_error_stiffness", "m g/r", move |code| {
-            Some(worst(*code)?.stiffness())
+            Some(worst(code)?.stiffness())
         })
         .means("stiffness of the row that has it")
         .shown("stiffness")
@@ -168,7 +169,7 @@ pub(crate) fn budget(judgements: &[Judgement]) -> DataTable<'_> {
         "`tristack crosscheck` (budget.csv)",
     )
     .stack(|(row, _)| row.study.stack)
-    .code(|(row, _)| row.code)
+    .code(|(row, _)| &row.code)
     .number("model_form", "1", |(row, _)| row.model_form())
     .means(MODEL_FORM);
     for part in Budget::PARTS {
@@ -293,7 +294,7 @@ fn explaining(judgements: &[Judgement]) -> String {
 
 fn remark(row: &Judgement) -> String {
     let (mu, stiffness) = (friction(row.mu()), row.stiffness());
-    let (code, verdict) = (row.code, row.verdict());
+    let (code, verdict) = (row.code.clone(), row.verdict());
     let notes = markdown_notes(&row.notes().join("\n"));
     format!("- **{code}, mu = {mu}, stiffness = {stiffness}: {verdict}**\n\n  {notes}\n")
 }
@@ -302,7 +303,7 @@ fn remark(row: &Judgement) -> String {
 fn codes(judgements: &[Judgement]) -> DataTable<'_> {
     let shared = |row: &Judgement| {
         let arms = row.study.convention.arms;
-        (row.code, row.version.clone(), row.source, arms)
+        (row.code.clone(), row.version.clone(), row.source, arms)
     };
     let mut rows: Vec<&Judgement> = Vec::new();
     for row in judgements {
@@ -311,7 +312,7 @@ fn codes(judgements: &[Judgement]) -> DataTable<'_> {
         }
     }
     Columns::<&Judgement>::for_people()
-        .code(|row| row.code)
+        .code(|row| &row.code)
         .version(|row| &row.version)
         .shown("version")
         .source(|row| row.source)

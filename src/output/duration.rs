@@ -14,7 +14,7 @@ pub(crate) fn code_durations(rows: &[CodeDuration]) -> DataTable<'_> {
         "A row is what a crosscheck needs of one code.",
         "`tristack time`",
     )
-    .code(|row| row.runs.code)
+    .code(|row| &row.runs.code)
     .text("installed", |row| row.is_installed)
     .means("whether it is installed here; if it is not, recorded runs stand in for it, which takes no time")
     .number("runs", "1", |row| row.runs.tasks)

@@ -117,7 +117,7 @@ fn grounds<'a>(rows: impl IntoIterator<Item = Row<'a>>) -> DataTable<'a> {
         "A row is what stands behind the verdict on one row of `crosscheck`, beside its runs and its budget.",
         "`tristack crosscheck --explain --format json`",
     )
-    .code(|(row, ..)| row.code)
+    .code(|(row, ..)| &row.code)
     .text("arms", |(row, ..)| origin_of_arms(row))
     .means("where the arms of the reference come from: `declared`, `measured` as declared, or `measured, not declared`")
     .number("first_order", "m g", |(row, ..)| {

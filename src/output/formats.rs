@@ -167,8 +167,7 @@ fn task() -> DataTable<'static> {
         };
         columns = columns
             .number(parameter.name, parameter.unit, |()| f64::NAN)
-            // A page is made once.
-            .means(meaning.leak());
+            .means(meaning);
     }
     columns.rows([])
 }
@@ -182,9 +181,8 @@ fn file<R: 'static>(
     let mut columns = Columns::<R>::new(name, row, written_by);
     for column in declared {
         let meaning = match column.is_optional {
-            // A page is made once.
-            true => format!("{}; a code may leave it out", column.meaning).leak(),
-            false => column.meaning,
+            true => format!("{}; a code may leave it out", column.meaning),
+            false => column.meaning.to_owned(),
         };
         columns = columns
             .number(column.name, column.unit, column.value)

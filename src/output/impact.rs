@@ -19,7 +19,7 @@ pub(crate) fn impacts(judgements: &[ImpactJudgement]) -> DataTable<'_> {
          time step, beside its exact value under the contact convention of the code.",
         "`tristack impacts` (impacts.csv, impacts.json)",
     )
-    .code(|row| row.code)
+    .code(|row| &row.code)
     .version(|row| &row.version)
     .source(|row| row.source)
     .convention(|row| row.study.impact.convention)
@@ -137,7 +137,7 @@ pub(crate) fn impacts_markdown(judgements: &[ImpactJudgement], command: &str) ->
 }
 
 fn remark(row: &ImpactJudgement) -> String {
-    let (code, verdict, impact) = (row.code, row.verdict(), &row.study.impact);
+    let (code, verdict, impact) = (row.code.clone(), row.verdict(), &row.study.impact);
     let (target, quantity) = (impact.target.as_str(), row.study.quantity.as_str());
     let (speed, restitution) = (
         impact.approach_speed,

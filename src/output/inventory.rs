@@ -9,14 +9,17 @@ use crate::runs::SelectedCode;
 pub(crate) fn inventory(codes: &[SelectedCode]) -> DataTable<'static> {
     let rows = codes.iter().map(|selected| {
         let found = selected.code.as_ref();
-        (selected.name, found.map(|found| found.identity().clone()))
+        (
+            selected.name.clone(),
+            found.map(|found| found.identity().clone()),
+        )
     });
     Columns::<(Code, Option<Identity>)>::new(
         "codes",
         "A row is a code that tristack knows, as it is installed on this machine.",
         "`tristack codes`",
     )
-    .code(|(code, _)| *code)
+    .code(|(code, _)| code)
     .text("installed", |(_, identity)| identity.is_some())
     .means("whether its program is here; `broken` is its version if that does not work")
     .text("version", |(_, identity)| {
@@ -36,8 +39,8 @@ pub(crate) fn inventory(codes: &[SelectedCode]) -> DataTable<'static> {
     .shown("package")
     .dispensable(2)
     .convention(|(code, _)| code.as_declared().map(|code| code.convention()))
-    .right("pair arm", |(code, _)| arms(*code, |arms| arms.pair))
-    .right("floor arm", |(code, _)| arms(*code, |arms| arms.floor))
+    .right("pair arm", |(code, _)| arms(code, |arms| arms.pair))
+    .right("floor arm", |(code, _)| arms(code, |arms| arms.floor))
     .text("deck_hash", |(code, _)| code.files_hash(TaskKind::Stack))
     .means("SHA-256 of the deck")
     .shown("deck")
@@ -49,7 +52,7 @@ pub(crate) fn inventory(codes: &[SelectedCode]) -> DataTable<'static> {
 }
 
 /// Arms for people, marked where they are only the default of a code that accepts any. Nothing is measured for a list.
-fn arms(code: Code, of: fn(&Arms) -> ContactArms) -> String {
+fn arms(code: &Code, of: fn(&Arms) -> ContactArms) -> String {
     let Some(declared) = code.as_declared() else {
         return "not declared".to_owned();
     };

@@ -3,7 +3,6 @@
 use super::number::{digits, friction_in_tex, rounded, small};
 use super::table::{Columns, DataTable, Table};
 use super::text::markdown_code;
-use crate::code::Code;
 use crate::model::{ContactConvention, TangentialStiffening};
 use crate::study::Verdict;
 use crate::study::yield_force::Judgement;
@@ -64,7 +63,7 @@ pub(crate) fn law_conventions(judgements: &[Judgement]) -> DataTable<'_> {
         "A row is what one style of a code means by a contact.",
         "`tristack report` (tables/laws.csv)",
     )
-    .code(|row| row.code)
+    .code(|row| &row.code)
     .text("style", |row| row.code.label())
     .means("the style in words")
     .shown("style")
@@ -131,18 +130,21 @@ fn exact_forces(row: &Judgement) -> String {
 
 /// For people: how well each style was measured to have its own limit.
 fn agreement(judgements: &[Judgement]) -> DataTable<'_> {
-    let rows_of = move |code: Code| judgements.iter().filter(move |row| row.code == code);
+    let rows_of = move |own: &Judgement| {
+        let code = own.code.clone();
+        judgements.iter().filter(move |row| row.code == code)
+    };
     Columns::<&Judgement>::for_people()
         .left("code", |row| row.code.to_string())
         .left("version", |row| row.version.clone())
         .left("runs", |row| row.source.as_str().to_owned())
         .right("rows that agree", move |row| {
-            let agreeing = rows_of(row.code).filter(|own| own.verdict() == Verdict::Agrees);
-            let yielding = rows_of(row.code).filter(|own| own.reference_force().is_some());
+            let agreeing = rows_of(row).filter(|own| own.verdict() == Verdict::Agrees);
+            let yielding = rows_of(row).filter(|own| own.reference_force().is_some());
             format!("{} of {}", agreeing.count(), yielding.count())
         })
         .right("largest error", move |row| {
-            let errors = rows_of(row.code).filter_map(|own| own.error());
+            let errors = rows_of(row).filter_map(|own| own.error());
             let largest = errors.map(f64::abs).reduce(f64::max);
             largest.map_or_else(|| "-".to_owned(), small)
         })

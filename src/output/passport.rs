@@ -80,7 +80,7 @@ pub(crate) fn passport_json(passport: &Passport, command: &str) -> String {
     let document = Document {
         schema: PASSPORT,
         command,
-        code: passport.code,
+        code: passport.code.clone(),
         title: passport.code.title(),
         software: passport.code.software(),
         style: passport.code.style(),
@@ -127,11 +127,11 @@ struct Document<'a, T> {
     #[schemars(with = "String")]
     code: Code,
     /// Its name in prose.
-    title: &'static str,
+    title: &'a str,
     /// The program, which its versions and styles share.
-    software: &'static str,
+    software: &'a str,
     /// The contact style, the same in all versions of the program.
-    style: &'static str,
+    style: &'a str,
     /// How to install the program.
     install: String,
     /// The worst verdict on a property.
@@ -255,7 +255,7 @@ fn twins(passport: &Passport) -> String {
             let others: Vec<Code> = same
                 .iter()
                 .filter(|own| !twins.contains(own))
-                .copied()
+                .cloned()
                 .collect();
             let further = match others.is_empty() {
                 true => String::new(),
@@ -271,9 +271,9 @@ fn parameters(passport: &Passport) -> String {
     let findings = passport.findings.findings.iter();
     let others: Vec<_> = findings.filter(|own| own.key.is_none()).collect();
     let agreeing = others.iter().filter(|own| own.verdict == Verdict::Agrees);
-    let tolerance = match passport.code {
-        Code::NATIVE => "rounding".to_owned(),
-        _ => format!("{TOLERANCE:e}"),
+    let tolerance = match passport.code.is_native() {
+        true => "rounding".to_owned(),
+        false => format!("{TOLERANCE:e}"),
     };
     format!(
         "\n## What it was asked for\n\n{} of {} properties (mass, stiffness, damping, friction, radius, times of forces, the top \

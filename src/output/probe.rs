@@ -14,7 +14,7 @@ pub(crate) fn probe(findings: &[Finding]) -> DataTable<'_> {
          code declares it.",
         "`tristack probe`, `tristack report` (tables/conventions.csv)",
     )
-    .code(|own| own.code)
+    .code(|own| &own.code)
     .version(|own| &own.version)
     .text("property", |own| own.property.clone())
     .means("name of the property")
@@ -30,7 +30,10 @@ pub(crate) fn probe(findings: &[Finding]) -> DataTable<'_> {
 
 /// For people: one line per property, one column per code.
 pub(crate) fn probe_by_code(findings: &[Finding]) -> Table {
-    let mut codes: Vec<Code> = findings.iter().map(|finding| finding.code).collect();
+    let mut codes: Vec<Code> = findings
+        .iter()
+        .map(|finding| finding.code.clone())
+        .collect();
     codes.sort();
     codes.dedup();
     let mut properties: Vec<&str> = Vec::new();
@@ -42,7 +45,7 @@ pub(crate) fn probe_by_code(findings: &[Finding]) -> Table {
     let mut columns =
         Columns::for_people().left("property", |property: &&str| property.to_string());
     for code in codes {
-        columns = columns.left(code.as_str(), move |property| {
+        columns = columns.left(code.to_string(), move |property| {
             let mut own = findings.iter();
             let found = own.find(|one| one.code == code && one.property == *property);
             found.map_or_else(|| "-".to_owned(), cell)

@@ -38,7 +38,7 @@ pub(crate) fn trajectories(judgements: &[TrajectoryJudgement]) -> DataTable<'_> 
          angles in radians. A code without comparisons has one row without distances.",
         "`tristack trajectories` (trajectories.csv, trajectories.json)",
     )
-    .code(|(judgement, _)| judgement.code)
+    .code(|(judgement, _)| &judgement.code)
     .version(|(judgement, _)| &judgement.version)
     .source(|(judgement, _)| judgement.source)
     .stack(|(judgement, _)| judgement.study.stack)
@@ -194,7 +194,7 @@ fn remarks(judgements: &[TrajectoryJudgement]) -> String {
     for judgement in judgements {
         let notes = markdown_notes(&judgement.notes().join("\n"));
         if !notes.is_empty() {
-            let (code, verdict) = (judgement.code, judgement.verdict());
+            let (code, verdict) = (judgement.code.clone(), judgement.verdict());
             lines += &format!("- **{code}: {verdict}**\n\n  {notes}\n");
         }
         for comparison in judgement.comparisons() {
@@ -230,7 +230,7 @@ fn codes(judgements: &[TrajectoryJudgement]) -> DataTable<'_> {
         optional(times, |time| format!("{time:.0}"))
     };
     Columns::<&TrajectoryJudgement>::for_people()
-        .code(|own| own.code)
+        .code(|own| &own.code)
         .version(|own| &own.version)
         .shown("version")
         .source(|own| own.source)

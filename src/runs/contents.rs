@@ -186,7 +186,7 @@ impl Origin {
 
     fn of_native(task: Option<StoredTask>) -> Self {
         Self {
-            code: Code::NATIVE.as_str().to_owned(),
+            code: Code::native().as_str().to_owned(),
             version: None,
             task,
             provenance: None,
@@ -195,18 +195,28 @@ impl Origin {
 }
 
 /// The codes as they are installed here, each looked up when it is first asked for.
-#[derive(Default)]
-pub(crate) struct CodesOfToday(BTreeMap<String, Vec<Box<dyn InstalledCode>>>);
+pub(crate) struct CodesOfToday {
+    known: Vec<Code>,
+    builds: BTreeMap<String, Vec<Box<dyn InstalledCode>>>,
+}
 
 impl CodesOfToday {
+    /// The `known` codes.
+    pub(crate) fn new(known: Vec<Code>) -> Self {
+        Self {
+            known,
+            builds: BTreeMap::new(),
+        }
+    }
+
     /// Whether the same task would have another address today, because this program, the code or its deck have changed
     /// since. `None` where that is not known: the code is unknown, not installed or broken, or the entry does not say its
     /// task.
     pub(crate) fn is_outdated(&mut self, content: &Content) -> Option<bool> {
         let origin = content.origin.as_ref().ok()?;
         let task = origin.task.as_ref()?;
-        let builds = self.0.entry(origin.code.clone());
-        let builds = builds.or_insert_with_key(|name| builds_of(name));
+        let builds = self.builds.entry(origin.code.clone());
+        let builds = builds.or_insert_with_key(|name| builds_of(&self.known, name));
         let builds = builds.iter().map(|build| &**build);
         let (broken, working): (Vec<&dyn InstalledCode>, Vec<_>) =
             builds.partition(|build| build.broken().is_some());
@@ -220,10 +230,10 @@ impl CodesOfToday {
     }
 }
 
-/// The builds of the code with this `name` whose results the store keeps under it: the usual one, and the one with more
+/// The builds of the one of `known` codes with this `name` whose results the store keeps under it: the usual one, and the one with more
 /// digits that explains round-off, if it is there. None if the usual one is not installed.
-fn builds_of(name: &str) -> Vec<Box<dyn InstalledCode>> {
-    let Some(code) = Code::named(name) else {
+fn builds_of(known: &[Code], name: &str) -> Vec<Box<dyn InstalledCode>> {
+    let Some(code) = known.iter().find(|code| code.as_str() == name) else {
         return Vec::new();
     };
     let usual = code.find();

@@ -80,7 +80,7 @@ type Outcome = Result<ImpactReading, Box<Failure>>;
 
 /// Whether motions are made faster than they are read from the store, as those of the native code.
 fn is_faster_made(code: &dyn InstalledCode) -> bool {
-    code.name() == Code::NATIVE
+    code.name().is_native()
 }
 
 impl ScheduledTask for ImpactRun {
@@ -133,7 +133,7 @@ impl ScheduledTask for ImpactRun {
         store.put_sealed(Self::KIND, &self.address(code), &content)
     }
 
-    fn recorded(&self, code: Code, recorded: &Recorded) -> Result<ImpactReading, RecordedError> {
+    fn recorded(&self, code: &Code, recorded: &Recorded) -> Result<ImpactReading, RecordedError> {
         Err(recorded.absent(code, "impact"))
     }
 
@@ -165,7 +165,7 @@ impl ScheduledTask for ImpactRun {
 
     fn report(
         &self,
-        code: Code,
+        code: &Code,
         result: Result<&ImpactReading, &Failure>,
         progress: &dyn Progress,
     ) {

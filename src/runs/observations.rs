@@ -98,7 +98,7 @@ impl<Run: ObservedRun> ScheduledTask for Run {
         self.largest_steps()
     }
 
-    fn seconds_per_step(&self, _: Code) -> f64 {
+    fn seconds_per_step(&self, _: &Code) -> f64 {
         Self::SECONDS_PER_STEP
     }
 
@@ -135,7 +135,11 @@ impl<Run: ObservedRun> ScheduledTask for Run {
         store.put_sealed(Self::KIND, &ObservedRun::address(self), &content)
     }
 
-    fn recorded(&self, code: Code, recorded: &Recorded) -> Result<Run::Observation, RecordedError> {
+    fn recorded(
+        &self,
+        code: &Code,
+        recorded: &Recorded,
+    ) -> Result<Run::Observation, RecordedError> {
         Err(recorded.absent(code, "observed run"))
     }
 
@@ -150,7 +154,7 @@ impl<Run: ObservedRun> ScheduledTask for Run {
 
     fn report(
         &self,
-        code: Code,
+        code: &Code,
         result: Result<&Run::Observation, &Failure>,
         progress: &dyn Progress,
     ) {

@@ -18,12 +18,11 @@ pub(crate) struct Selection {
 }
 
 impl Selection {
-    /// Those of `contents` that are what is asked for.
-    pub(crate) fn of(&self, contents: Vec<Content>) -> Vec<Content> {
-        let mut today = CodesOfToday::default();
+    /// Those of `contents` that are what is asked for; the codes of `today` say what is outdated.
+    pub(crate) fn of(&self, contents: Vec<Content>, today: &mut CodesOfToday) -> Vec<Content> {
         let chosen = contents
             .into_iter()
-            .filter(|content| self.has(content, &mut today));
+            .filter(|content| self.has(content, today));
         chosen.collect()
     }
 

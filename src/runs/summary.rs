@@ -74,7 +74,7 @@ impl Reading for RunSummary {
         store.summary(code.identity(), case, &code.name().deck_hash(case))
     }
 
-    fn recorded(case: &Case, code: Code, recorded: &Recorded) -> Result<Self, RecordedError> {
+    fn recorded(case: &Case, code: &Code, recorded: &Recorded) -> Result<Self, RecordedError> {
         recorded.summary(code, case)
     }
 }

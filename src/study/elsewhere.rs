@@ -89,7 +89,7 @@ impl Plan {
     /// # Errors
     /// If the code cannot run a task.
     pub(crate) fn new(
-        code: Code,
+        code: &Code,
         rows: Vec<PlannedRow>,
         root: &Path,
         command: &str,
@@ -98,7 +98,7 @@ impl Plan {
         let (mut prepared, further) = micro_tests(code, root)?;
         let settled = code.as_declared().or_else(|| {
             let runs: Vec<PlannedRun> = prepared.iter().map(|one| one.run.clone()).collect();
-            settled_by_files(&ResultFiles::new(code, "", root, &runs))
+            settled_by_files(&ResultFiles::new(code.clone(), "", root, &runs))
         });
         // Without micro-tests nothing will settle it.
         let is_open = settled.is_none() && !prepared.is_empty();
@@ -116,7 +116,7 @@ impl Plan {
             command: command.to_owned(),
             tristack: env!("CARGO_PKG_VERSION").to_owned(),
             code: code.as_str().to_owned(),
-            folder: code.folder(),
+            folder: code.folder().map(Path::to_owned),
             version,
             rows,
             continues: further || is_open,
@@ -139,7 +139,7 @@ impl Plan {
     }
 
     /// What is wrong with the result of each run; nothing where it is there and usable.
-    pub fn troubles(&self, code: Code, root: &Path) -> Vec<Option<FailureKind>> {
+    pub fn troubles(&self, code: &Code, root: &Path) -> Vec<Option<FailureKind>> {
         let runs = self.runs.iter();
         runs.map(|run| run.trouble(code, root)).collect()
     }
@@ -193,7 +193,7 @@ impl PlannedRow {
 
 /// The micro-tests of all rounds that can be planned, and whether there are more: those of a round are planned by the
 /// results of the one before.
-fn micro_tests(code: Code, root: &Path) -> Result<(Vec<PreparedRun>, bool), InvalidValue> {
+fn micro_tests(code: &Code, root: &Path) -> Result<(Vec<PreparedRun>, bool), InvalidValue> {
     if code.check_task(TaskKind::Motion).is_err() {
         return Ok((Vec::new(), false));
     }

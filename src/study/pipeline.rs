@@ -165,7 +165,10 @@ impl<'a> Campaign<'a> {
 
     /// The names of the codes.
     pub fn names(&self) -> Vec<Code> {
-        self.codes.iter().map(|selected| selected.name).collect()
+        self.codes
+            .iter()
+            .map(|selected| selected.name.clone())
+            .collect()
     }
 
     /// The codes under their settled conventions, in their order: as declared, or where a manifest leaves something out, as
@@ -174,7 +177,7 @@ impl<'a> Campaign<'a> {
         let codes = self.codes.iter().enumerate();
         let settled = codes.map(|(place, selected)| {
             let declared = selected.name.as_declared();
-            declared.unwrap_or_else(|| settled_by(selected.name, &self.probes()[place]))
+            declared.unwrap_or_else(|| settled_by(&selected.name, &self.probes()[place]))
         });
         settled.collect()
     }
@@ -209,7 +212,7 @@ impl<'a> Campaign<'a> {
         &self,
         workloads: &[Workload<R::Task>],
     ) -> Vec<Vec<Result<R, RunError>>> {
-        let native = [SelectedCode::find(Code::NATIVE)];
+        let native = [SelectedCode::find(Code::native())];
         read_all(workloads, &native, self.settings, self.progress)
     }
 
@@ -236,7 +239,7 @@ impl<'a> Campaign<'a> {
         study: S,
         results: Vec<Vec<Result<S::Reading, RunError>>>,
     ) -> Option<Judged<S, S::Finding>> {
-        let code = study.code().name();
+        let code = study.code().name().clone();
         let place = self.codes.iter().position(|own| own.name == code);
         let probed = place.and_then(|place| self.probes().get(place));
         let unprobed = probed.and_then(|probed| probed.as_ref().err());

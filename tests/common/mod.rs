@@ -155,8 +155,8 @@ pub fn installed(codes: &[Code]) -> Vec<Code> {
             "{code} is required, but not installed"
         );
     }
-    let (installed, missing): (Vec<_>, Vec<_>) =
-        codes.iter().partition(|code| code.find().is_some());
+    let all = codes.iter().cloned();
+    let (installed, missing): (Vec<_>, Vec<_>) = all.partition(|code| code.find().is_some());
     for code in missing {
         eprintln!("{code} is not installed: its live tests are skipped");
     }
@@ -178,14 +178,14 @@ pub fn json(text: &str) -> serde_json::Value {
 }
 
 /// Saves in `directory` what is recorded of `code`, as `change` makes it.
-pub fn save_recording(directory: &Path, code: Code, change: impl FnOnce(&mut Recording)) {
+pub fn save_recording(directory: &Path, code: &Code, change: impl FnOnce(&mut Recording)) {
     let mut recording = recording(code);
     change(&mut recording);
     recording.save(directory, code).expect("a copy");
 }
 
 /// The recording of `code` that is embedded in the program.
-pub fn recording(code: Code) -> Recording {
+pub fn recording(code: &Code) -> Recording {
     let recorded = Recorded::embedded().recording(code);
     recorded.expect("it is not damaged")
 }

@@ -85,7 +85,7 @@ pub fn first_case() -> Case {
 }
 
 fn recorded_series() -> impl Iterator<Item = (Case, String)> {
-    let runs = recording(yade()).runs.into_iter();
+    let runs = recording(&yade()).runs.into_iter();
     runs.filter_map(|run| Some((run.summary.case, text(&run.series?))))
 }
 
@@ -110,7 +110,7 @@ fn install_run(replay: &Path, case: &Case, series: &str, disturbance: Disturbanc
 /// The recorded answers to micro-tests, row by row as `change` makes them.
 pub fn install_probe(bench: &Bench, change: fn(MotionRow) -> MotionRow) {
     let replay = bench.path("replay");
-    let record = recording(yade()).probe.expect("it is there");
+    let record = recording(&yade()).probe.expect("it is there");
     for answer in record.answers {
         let parameters = ParameterFormat::Json.content(&answer.test.parameters());
         let rows = answer.motion.rows().iter().map(|row| change(*row));

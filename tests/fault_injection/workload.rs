@@ -41,7 +41,7 @@ impl Workloads {
         let place = Bench::with_system_programs();
         install(&place, &shared.path("replay"));
         let yade = Code::named("yade").expect("it is built in");
-        let replayed = Workload::new(&place, yade, "yade", &[0.2, 0.3], 100.0);
+        let replayed = Workload::new(&place, yade.clone(), "yade", &[0.2, 0.3], 100.0);
         let folder = replay::quick_folder(&shared.path("folder"));
         let place = Bench::with_system_programs();
         install_wrapped(&place, &shared.path("replay"), "honest");
@@ -51,12 +51,18 @@ impl Workloads {
             Code::named("lammps").expect("it is built in"),
             Code::named("yade").expect("it is built in"),
         ];
-        let mut real = vec![(Code::NATIVE, 1e4)];
+        let mut real = vec![(Code::native(), 1e4)];
         let installed = codes.iter().filter(|code| code.find().is_some());
-        real.extend(installed.map(|&code| (code, 100.0)));
+        real.extend(installed.map(|code| (code.clone(), 100.0)));
         let real = real.into_iter().map(|(code, stiffness)| {
             let place = Bench::with_system_programs();
-            Workload::new(&place, code, code.as_str(), &[0.25, 0.35], stiffness)
+            Workload::new(
+                &place,
+                code.clone(),
+                code.as_str(),
+                &[0.25, 0.35],
+                stiffness,
+            )
         });
         Self {
             real: real.collect(),

@@ -62,7 +62,7 @@ fn cylinders(convention: &ContactConvention) -> Material {
 /// Codes that differ in arms, spring and operand of Coulomb's limit.
 fn conventions() -> [ContactConvention; 3] {
     let built_in = |name| Code::named(name).expect("it is built in");
-    let codes = [Code::NATIVE, built_in("liggghts"), built_in("lammps")];
+    let codes = [Code::native(), built_in("liggghts"), built_in("lammps")];
     codes.map(|code| code.declaration().convention)
 }
 

@@ -44,16 +44,16 @@ fn a_series_with_too_many_rows_is_refused_after_the_first_of_them() {
 /// A summary with values out of their range was accepted as recorded.
 #[test]
 fn a_summary_of_an_impossible_case_is_refused_with_its_table() {
-    let mut recording = recording(Code::named("liggghts").expect("it is built in"));
+    let mut recording = recording(&Code::named("liggghts").expect("it is built in"));
     let case = &mut recording.runs[1].summary.case;
     case.protocol.time_step = 9.0;
-    let (table, archive) = recording.to_files(Code::named("liggghts").expect("it is built in"));
+    let (table, archive) = recording.to_files(&Code::named("liggghts").expect("it is built in"));
     let directory = Path::new("mine");
     let refused = Recording::from_files(
         &table,
         &archive,
         directory,
-        Code::named("liggghts").expect("it is built in"),
+        &Code::named("liggghts").expect("it is built in"),
     )
     .unwrap_err();
     let message = refused.to_string();

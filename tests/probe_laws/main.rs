@@ -37,7 +37,7 @@ fn findings(
     let answers = |tests: &[ContactTest]| Ok::<_, ()>(tests.iter().map(&motion).collect());
     let properties = probe(&declaration, answers).expect("the native DEM answers");
     let code = Code::named("yade").expect("a built-in code");
-    let judged = properties.into_iter().map(|own| own.judge(code, ""));
+    let judged = properties.into_iter().map(|own| own.judge(&code, ""));
     judged.collect()
 }
 

@@ -53,7 +53,7 @@ pub fn check(data: &[u8]) {
         stays_inside(run);
     }
     // The task of the run that has a result may have become another one, or its files.
-    let troubles = plan.troubles(code, root);
+    let troubles = plan.troubles(&code, root);
     let complete = troubles
         .iter()
         .zip(&plan.runs)

@@ -14,7 +14,7 @@ const CHANGE: usize = 5;
 /// The micro-tests of the first round and their motions.
 static FIRST_ROUND: LazyLock<Vec<Vec<MotionRow>>> = LazyLock::new(|| {
     let mut rows = Vec::new();
-    let stopped = probe(&Code::NATIVE.declaration(), |tests| {
+    let stopped = probe(&Code::native().declaration(), |tests| {
         rows = tests
             .iter()
             .map(|test| honest(test).rows().to_vec())
@@ -39,7 +39,7 @@ pub fn check(data: &[u8]) {
         *value = changed(*value, change[4]);
     }
     let mut round = 0;
-    let read = probe(&Code::NATIVE.declaration(), |tests| {
+    let read = probe(&Code::native().declaration(), |tests| {
         round += 1;
         if round == 1 {
             return Ok(FIRST_ROUND
@@ -55,7 +55,7 @@ pub fn check(data: &[u8]) {
             .collect()
     });
     for property in read.unwrap_or_default() {
-        let finding = property.judge(Code::NATIVE, "0");
+        let finding = property.judge(&Code::native(), "0");
         assert!(!finding.property.is_empty());
     }
 }

@@ -36,7 +36,7 @@ fn check_probe(text: &[u8]) {
         assert_eq!(answer.motion.rows().len() as u64, answer.test.steps + 1);
         assert!(record.answer(&[answer.test]).is_some());
     }
-    let _ = record.outdated(|test| Code::NATIVE.deck_hash(test));
+    let _ = record.outdated(|test| Code::native().deck_hash(test));
 }
 
 fn check_table(text: &[u8]) {
@@ -47,8 +47,8 @@ fn check_table(text: &[u8]) {
         Code::named("liggghts").expect("it is built in"),
         Path::new("mine"),
     );
-    let (_, empty) = Recording::default().to_files(code);
-    let Ok(recording) = Recording::from_files(&table, &empty, directory, code) else {
+    let (_, empty) = Recording::default().to_files(&code);
+    let Ok(recording) = Recording::from_files(&table, &empty, directory, &code) else {
         return;
     };
     for run in &recording.runs {
@@ -58,15 +58,16 @@ fn check_table(text: &[u8]) {
             .expect("what is accepted is valid");
         assert!(run.series.is_none(), "the archive is empty");
     }
-    let (table, _) = recording.to_files(code);
-    let again = Recording::from_files(&table, &empty, directory, code).expect("its own table");
-    assert_eq!(again.to_files(code).0, table);
+    let (table, _) = recording.to_files(&code);
+    let again = Recording::from_files(&table, &empty, directory, &code).expect("its own table");
+    assert_eq!(again.to_files(&code).0, table);
     assert_eq!(again.runs.len(), recording.runs.len());
 }
 
 /// The recorded runs of a code without their series, some of them.
 fn few_runs() -> Recording {
-    let recorded = Recorded::embedded().recording(Code::named("liggghts").expect("it is built in"));
+    let recorded =
+        Recorded::embedded().recording(&Code::named("liggghts").expect("it is built in"));
     let mut runs = recorded.expect("it is not damaged").runs;
     runs.truncate(2);
     runs.iter_mut().for_each(|run| run.series = None);
@@ -77,7 +78,7 @@ fn few_runs() -> Recording {
 pub fn seeds() -> Vec<Seed> {
     let runs = few_runs();
     let provenance = runs.runs[0].summary.provenance.to_json();
-    let (table, _) = runs.to_files(Code::named("liggghts").expect("it is built in"));
+    let (table, _) = runs.to_files(&Code::named("liggghts").expect("it is built in"));
     let (_, table) = table.split_once('\n').expect("a digest");
     let probe = json!({
         "provenance": serde_json::from_str::<serde_json::Value>(&provenance).expect("JSON"),

@@ -60,7 +60,7 @@ pub fn check(data: &[u8]) {
                 .as_object()
                 .is_some_and(|named| named.values().all(|one| one.is_number()))
         );
-        assert_eq!(Code::NATIVE.deck_hash(&case).len(), 64);
+        assert_eq!(Code::native().deck_hash(&case).len(), 64);
     }
 }
 

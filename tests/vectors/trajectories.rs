@@ -300,7 +300,7 @@ fn trajectories_are_those_of_two_routes() {
             json_schema: "trajectory.schema.json".to_owned(),
             schema: SCHEMA.to_owned(),
             licence: LICENCE.to_owned(),
-            provenance: Provenance::of(Code::NATIVE.deck_hash(&case)),
+            provenance: Provenance::of(Code::native().deck_hash(&case)),
             id: id.to_owned(),
             what: what.to_owned(),
             case: serde_json::to_value(case).expect("plain values"),

@@ -23,9 +23,9 @@ impl CodeOptions {
         let Some(other) = named.find(|code| !code.has_power(power)) else {
             return Ok(self.named.clone());
         };
-        let names: Vec<&str> = Code::of_power(power)
+        let names: Vec<String> = Code::of_power(power)
             .into_iter()
-            .map(Code::as_str)
+            .map(|code| code.to_string())
             .collect();
         Err(InvalidValue {
             key: "--codes".to_owned(),
@@ -44,22 +44,22 @@ pub(in crate::cli) fn selected_codes(named: &[Code]) -> Result<Vec<SelectedCode>
     if named.is_empty() {
         return Ok(find_all(&Code::of_power(Power::Linear)));
     }
-    let mut names = named.to_vec();
-    names.sort();
-    names.dedup();
-    let found = find_all(&names).into_iter().map(|selected| {
-        let missing = CliError::MissingCode(selected.name);
-        selected.code.is_some().then_some(selected).ok_or(missing)
-    });
+    let found = find_all(&Code::side_by_side(named)?)
+        .into_iter()
+        .map(|selected| match selected.code.is_some() {
+            true => Ok(selected),
+            false => Err(CliError::MissingCode(selected.name)),
+        });
     found.collect()
 }
 
 /// The codes `names` as they are installed here, looked up at the same time.
 pub(in crate::cli) fn find_all(names: &[Code]) -> Vec<SelectedCode> {
-    let find = || in_parallel(names, names.len(), |name| SelectedCode::find(*name));
+    let find = || in_parallel(names, names.len(), |name| SelectedCode::find(name.clone()));
     match names {
         // This one is part of the program.
-        [] | [Code::NATIVE] => find(),
+        [] => find(),
+        [one] if one.is_native() => find(),
         [one] => during(&format!("locating the program of {one}"), find),
         _ => during(
             &format!("locating the programs of {} codes", names.len()),
@@ -69,9 +69,9 @@ pub(in crate::cli) fn find_all(names: &[Code]) -> Vec<SelectedCode> {
 }
 
 /// Reports the codes that are not installed, and whether recorded runs stand in for them.
-pub(in crate::cli) fn tell_stand_ins(codes: &[SelectedCode], is_recorded: impl Fn(Code) -> bool) {
+pub(in crate::cli) fn tell_stand_ins(codes: &[SelectedCode], is_recorded: impl Fn(&Code) -> bool) {
     for selected in codes.iter().filter(|selected| selected.code.is_none()) {
-        let instead = match is_recorded(selected.name) {
+        let instead = match is_recorded(&selected.name) {
             true => "recorded runs stand in for it",
             false => "no recorded run stands in for it",
         };

@@ -74,7 +74,7 @@ impl<'a, 'f> Lanes<'a, 'f> {
     fn address(&self, index: usize) -> String {
         let case = &self.cases[index];
         let identity = &self.native.identity;
-        identity.address(case, &Code::NATIVE.deck_hash(case))
+        identity.address(case, &Code::native().deck_hash(case))
     }
 
     fn keep(&mut self, open: Vec<(usize, Checkpoint)>) {

@@ -3,10 +3,10 @@
 mod checkpoints;
 mod lanes;
 
+use super::described::Code;
 use super::failure::{Failure, FailureKind};
 use super::installed::{Batching, Finished, InstalledCode, RunContext};
 use super::provenance::{Identity, Provenance, Run};
-use super::registry::Code;
 use crate::dem::{EventRun, LaneKind, LaneWidth, Observation, PublishedForces, PublishedRun};
 use crate::dem::{compress_stack_precisely, run_contact_test, run_pyramid};
 use crate::model::{Case, ContactTest, Pyramid};
@@ -18,6 +18,7 @@ use std::time::{Duration, Instant};
 
 /// The DEM of this program.
 pub struct Native {
+    name: Code,
     identity: Identity,
     arithmetic: Arithmetic,
 }
@@ -35,6 +36,7 @@ impl Native {
             Arithmetic::DoubleDouble => concat!(env!("CARGO_PKG_VERSION"), " double-double"),
         };
         Self {
+            name: Code::native(),
             identity: Identity {
                 version: version.to_owned(),
                 ..Identity::native().clone()
@@ -70,7 +72,7 @@ impl Native {
     fn run_of(&self, case: &Case, series: Series, duration: Duration) -> Run {
         let command = "tristack simulate --code native --case case.json";
         let command = command.split(' ').map(str::to_owned).collect();
-        let (identity, deck_hash) = (self.identity.clone(), Code::NATIVE.deck_hash(case));
+        let (identity, deck_hash) = (self.identity.clone(), Code::native().deck_hash(case));
         let (steps, seconds) = (case.total_steps(), duration.as_secs_f64());
         Run {
             case: *case,
@@ -156,12 +158,12 @@ fn cause(error: SeriesError, context: &RunContext, late: Option<Duration>) -> Fa
 }
 
 fn failure(subject: &impl ToString, kind: FailureKind) -> Failure {
-    Failure::new(Code::NATIVE, subject, kind)
+    Failure::new(Code::native(), subject, kind)
 }
 
 impl InstalledCode for Native {
-    fn name(&self) -> Code {
-        Code::NATIVE
+    fn name(&self) -> &Code {
+        &self.name
     }
 
     fn identity(&self) -> &Identity {

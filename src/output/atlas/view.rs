@@ -210,7 +210,7 @@ fn key_cell(own: &NamedPassport, key: ConventionKey) -> Cell {
 
 /// Whether the value of a key is that of the paper's model, which the native code has.
 fn is_the_papers(row: &KeyRow, key: ConventionKey, value: &str) -> bool {
-    let paper = Code::NATIVE.declaration().unsettled("").value(key);
+    let paper = Code::native().declaration().unsettled("").value(key);
     match (row.number(), paper.parse::<f64>()) {
         (Some((value, open)), Ok(paper)) => (value - paper).abs() <= open + SAME,
         _ => value == paper,

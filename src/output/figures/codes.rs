@@ -17,10 +17,9 @@ pub(super) fn load_axis(range: (f64, f64)) -> Axis {
     Axis::log("load at yield F + 3 = (f + 3 m g)/(m g)", range)
 }
 
-/// The codes that have at least one row, in the order of [`Code::all`].
+/// The codes that have at least one row, in the order of tables.
 pub(super) fn present(judgements: &[Judgement]) -> Vec<Code> {
-    let has_row = |code: &Code| judgements.iter().any(|own| own.code == *code);
-    Code::all().into_iter().filter(has_row).collect()
+    Code::distinct(judgements.iter().map(|row| &row.code))
 }
 
 /// Marks at F + 3 of every row with a yield force, except for variants of a code with the contacts of another.
@@ -87,7 +86,7 @@ pub(super) fn name_errors(panel: &mut Panel, words: &str) {
 /// The marks of the codes of `judgements`, and the rings around their points.
 pub(super) fn key(judgements: &[Judgement]) -> Vec<(Sample, String)> {
     let codes = present(judgements).into_iter();
-    let codes = codes.map(|code| (Mark::of(code), code.label()));
+    let codes = codes.map(|code| (Mark::of(&code), code.label()));
     let rings = RINGS.into_iter().filter(|(verdict, ..)| {
         let mut shown = judgements.iter().filter(|row| row.yield_force().is_some());
         shown.any(|row| row.verdict() == *verdict)
@@ -109,7 +108,7 @@ const RINGS: [(Verdict, Mark, &str); 2] = [
 pub(super) fn left_out(judgements: &[Judgement]) -> String {
     let repeating = present(judgements).into_iter();
     let repeating = repeating.filter(|code| code.repeats_another());
-    let names: Vec<String> = repeating.map(Code::label).collect();
+    let names: Vec<String> = repeating.map(|code| code.label()).collect();
     if names.is_empty() {
         return String::new();
     }
@@ -120,14 +119,14 @@ pub(super) fn left_out(judgements: &[Judgement]) -> String {
 }
 
 /// Adds `code` to the key of `panel`.
-pub(super) fn name(panel: &mut Panel, code: Code) {
+pub(super) fn name(panel: &mut Panel, code: &Code) {
     panel.key(Sample::Mark(Mark::of(code)), &code.label());
 }
 
 /// The runs of `code` as marks, joined by a line for the native DEM.
-pub(super) fn runs(panel: &mut Panel, stroke: Stroke, code: Code, points: &[(f64, Option<f64>)]) {
+pub(super) fn runs(panel: &mut Panel, stroke: Stroke, code: &Code, points: &[(f64, Option<f64>)]) {
     let points = points.iter().copied();
-    if code == Code::NATIVE {
+    if code.is_native() {
         panel.line(stroke, points.clone());
     }
     panel.marks(Mark::of(code), points.filter_map(|(x, y)| Some((x, y?))));
@@ -143,7 +142,7 @@ pub(super) fn mark(
     for code in present(judgements) {
         let own = judgements.iter();
         let own = own.filter(|row| row.code == code);
-        panel.marks(size(Mark::of(code)), own.filter_map(&point));
+        panel.marks(size(Mark::of(&code)), own.filter_map(&point));
     }
     for (verdict, ring, _) in RINGS {
         let own = judgements.iter();

@@ -7,7 +7,6 @@ use super::panel::{Anchor, Panel, Point, Sample};
 use super::sheet::Sheet;
 use super::style::{GUIDE, Mark, THIN, TOGETHER};
 use crate::code::Code;
-use crate::model::Power;
 use crate::paper::claims::number;
 use crate::paper::published::{Published, PublishedForce};
 use crate::paper::reproduction::{Convergence, ConvergencePoint, FAST_WALL, convergence_stack};
@@ -69,7 +68,7 @@ pub(super) fn convergence(study: &Convergence, published: Option<&Published>) ->
         )
     );
     let key = shown_codes(study).into_iter();
-    let key = key.map(|code| (Sample::Mark(Mark::of(code)), code.label()));
+    let key = key.map(|code| (Sample::Mark(Mark::of(&code)), code.label()));
     Figure::of_sheet(
         "convergence",
         caption,
@@ -78,9 +77,7 @@ pub(super) fn convergence(study: &Convergence, published: Option<&Published>) ->
 }
 
 fn shown_codes(study: &Convergence) -> Vec<Code> {
-    let codes = Code::of_power(Power::Linear).into_iter();
-    let shown = |code: &Code| study.time_steps.iter().any(|point| point.code == *code);
-    codes.filter(shown).collect()
+    Code::distinct(study.time_steps.iter().map(|point| &point.code))
 }
 
 /// The distance of a force from the limit over the wall speed, the codes side by side: they would hide each other.
@@ -111,7 +108,7 @@ fn speeds(study: &Convergence, symbol: &str, lowest: Point, excess: Force) -> Pa
             })
             .collect();
         points.sort_by(|one, other| one.0.total_cmp(&other.0));
-        codes::runs(&mut panel, THIN, code, &points);
+        codes::runs(&mut panel, THIN, &code, &points);
     }
     panel
 }
@@ -130,17 +127,17 @@ fn steps(study: &Convergence, symbol: &str, force: Force) -> Panel {
     );
     setting(&mut panel, PAPER_TIME_STEP, CHANGE);
     for code in shown_codes(study) {
-        let mut points = changes(&study.time_steps, code, force);
+        let mut points = changes(&study.time_steps, &code, force);
         points.sort_by(|one, other| one.0.total_cmp(&other.0));
-        codes::runs(&mut panel, THIN, code, &points);
+        codes::runs(&mut panel, THIN, &code, &points);
     }
     panel
 }
 
 /// The change of a force of `code` with the time step, relative to the force at the paper's time step, which is left
 /// out.
-fn changes(points: &[ConvergencePoint], code: Code, force: Force) -> Vec<Run> {
-    let own = || points.iter().filter(|point| point.code == code);
+fn changes(points: &[ConvergencePoint], code: &Code, force: Force) -> Vec<Run> {
+    let own = || points.iter().filter(|point| point.code == *code);
     let mut paper = own().filter(|point| point.time_step == PAPER_TIME_STEP);
     let Some(paper) = paper.next().and_then(force) else {
         return Vec::new();

@@ -24,7 +24,7 @@ pub(crate) fn laws_figure(judgements: &[Judgement]) -> Figure {
     let mut codes: Vec<(Code, ContactConvention)> = Vec::new();
     for row in judgements {
         if !codes.iter().any(|(code, _)| *code == row.code) {
-            codes.push((row.code, row.study.convention));
+            codes.push((row.code.clone(), row.study.convention));
         }
     }
     let ratio = judgements
@@ -54,7 +54,7 @@ fn panel(stiffness: f64, judgements: &[Judgement], curves: &[LawCurve]) -> Panel
     );
     let load = |force: Option<f64>| force.map(|force| force + 3.0);
     for curve in curves.iter().filter(|curve| curve.stiffness == stiffness) {
-        let colour = Mark::of(curve.code).colour;
+        let colour = Mark::of(&curve.code).colour;
         let points = curve.points.iter();
         panel.line(
             Stroke::new(colour, 0.8, &[4.0, 3.0]),

@@ -57,7 +57,7 @@ fn arms(code: &SettledCode) -> [String; 2] {
 
 fn arms_panel(codes: &[SettledCode], judgements: &[Judgement], curves: &Curves) -> Panel {
     let own = curves.model_form.iter();
-    let own = own.filter(|point| point.code == codes[0].name());
+    let own = own.filter(|point| point.code == *codes[0].name());
     let lowest = own
         .map(|point| 100.0 * point.difference)
         .fold(0.0, f64::min);
@@ -68,7 +68,7 @@ fn arms_panel(codes: &[SettledCode], judgements: &[Judgement], curves: &Curves) 
         let axis = Axis::linear(LABEL, (-25.0, 5.0), 5.0, 0);
         (axis, (0.05, 0.5), (0.1, 3.2))
     };
-    let names: Vec<Code> = codes.iter().map(SettledCode::name).collect();
+    let names: Vec<Code> = codes.iter().map(|own| own.name().clone()).collect();
     let mut panel = panel(axis, &names, judgements, curves);
     panel.key_at(key.0, key.1);
     panel.words(
@@ -94,9 +94,9 @@ fn panel(y: Axis, codes: &[Code], judgements: &[Judgement], curves: &Curves) -> 
         panel.line(stroke, points);
         panel.key(Sample::Line(stroke), &power_of_ten(stiffness));
     }
-    for &code in codes {
+    for code in codes {
         let own = judgements.iter();
-        let own = own.filter(|row| row.code == code);
+        let own = own.filter(|row| row.code == *code);
         panel.marks(Mark::of(code), own.filter_map(measured));
         codes::name(&mut panel, code);
     }

@@ -7,7 +7,6 @@ use super::panel::{Anchor, Panel, Sample};
 use super::sheet::Sheet;
 use super::style::{EXACT_AFTER_RAMP, GUIDE, THIN};
 use crate::code::Code;
-use crate::model::Power;
 use crate::study::preparation::{PreparationRow, PreparationStudy};
 
 /// Width of the line of a limit, in m g.
@@ -31,7 +30,7 @@ pub(super) fn preparation(study: &PreparationStudy) -> Figure {
     }
     for (limit, codes) in limits(study) {
         force.level(EXACT_AFTER_RAMP, limit);
-        let names: Vec<String> = codes.into_iter().map(Code::label).collect();
+        let names: Vec<String> = codes.into_iter().map(|code| code.label()).collect();
         force.words_on(&names.join("; "), limit);
     }
     force.key(
@@ -39,8 +38,8 @@ pub(super) fn preparation(study: &PreparationStudy) -> Figure {
         "exact limit after the gravity ramp",
     );
     force.key_at(0.04, 0.02);
-    for code in Code::of_power(Power::Linear) {
-        let rows = || study.rows_of(code, code).filter(|row| row.push.is_some());
+    for code in Code::distinct(study.rows.iter().map(|row| &row.code)) {
+        let rows = || study.rows_of(&code, &code).filter(|row| row.push.is_some());
         if rows().next().is_none() {
             continue;
         }
@@ -50,9 +49,9 @@ pub(super) fn preparation(study: &PreparationStudy) -> Figure {
                 .filter_map(|row| Some((row.push? / epsilon, value(row))))
                 .collect()
         };
-        codes::runs(&mut contact, THIN, code, &points(|row| row.contact_force));
-        codes::runs(&mut force, THIN, code, &points(|row| row.yield_force));
-        codes::name(&mut contact, code);
+        codes::runs(&mut contact, THIN, &code, &points(|row| row.contact_force));
+        codes::runs(&mut force, THIN, &code, &points(|row| row.yield_force));
+        codes::name(&mut contact, &code);
     }
     contact.key_at(0.6, 0.5);
     let caption = format!(
@@ -70,9 +69,9 @@ pub(super) fn preparation(study: &PreparationStudy) -> Figure {
 /// The exact limits after a gravity ramp under the conventions of the codes, each with the codes whose lines fall together.
 fn limits(study: &PreparationStudy) -> Vec<(f64, Vec<Code>)> {
     let mut limits: Vec<(f64, Vec<Code>)> = Vec::new();
-    for code in Code::of_power(Power::Linear) {
-        let mut ramp = study.rows_of(code, code).filter(|row| row.push.is_none());
-        let Some(limit) = ramp.next().and_then(|row| row.limit_force) else {
+    for code in Code::distinct(study.rows.iter().map(|row| &row.code)) {
+        let ramp = study.rows_of(&code, &code).find(|row| row.push.is_none());
+        let Some(limit) = ramp.and_then(|row| row.limit_force) else {
             continue;
         };
         let is_drawn_there = |own: f64| (own - limit).abs() < LINE_WIDTH;

@@ -5,7 +5,6 @@ use super::panel::{Anchor, Panel, Point, Sample};
 use super::sheet::Sheet;
 use super::style::{EXACT, HERTZ, PERTURBATION, THIN};
 use super::{Figure, friction_words, stiffness_axis};
-use crate::code::Code;
 use crate::model::{PAPER_STIFFNESS_RATIO, Power};
 use crate::paper::claims::{number, values};
 use crate::paper::published::Published;
@@ -133,7 +132,7 @@ const HERTZ_END: (f64, f64) = (1.35e6, 85.0);
 /// The table of the fitted exponents.
 fn fits<'a>(exponents: impl Iterator<Item = &'a Exponent>) -> Vec<Vec<String>> {
     let heads = ["exponent β", "native", "exact limit", "kₙ → ∞"];
-    let own = exponents.filter(|own| own.code == Code::NATIVE);
+    let own = exponents.filter(|own| own.code.is_native());
     let rows = own.map(|fitted| {
         let decimals = decimals(fitted.uncertainty);
         vec![

@@ -170,13 +170,9 @@ impl Mark {
     }
 
     /// The mark of a code: that of its manifest, or else one of [`UNCHOSEN`] in turn.
-    pub fn of(code: Code) -> Self {
+    pub fn of(code: &Code) -> Self {
         let (shape, own) = code.mark().map_or_else(
-            || {
-                let others = Code::all().into_iter().filter(|other| *other < code);
-                let unchosen = others.filter(|other| other.mark().is_none()).count();
-                UNCHOSEN[unchosen % UNCHOSEN.len()]
-            },
+            || UNCHOSEN[code.turn() % UNCHOSEN.len()],
             |mark| (mark.shape, mark.colour),
         );
         Self::new(shape, colour(own), size(shape))

@@ -75,7 +75,7 @@ fn judgements() -> Vec<Judgement> {
     let codes = Code::of_power(Power::Linear).into_iter();
     let rows = codes.flat_map(|code| {
         let force = (code != Code::named("lammps").unwrap()).then_some(4.0);
-        FRICTIONS.map(|mu| judgement(code, mu, force))
+        FRICTIONS.map(|mu| judgement(code.clone(), mu, force))
     });
     rows.collect()
 }
@@ -130,7 +130,7 @@ fn curves() -> Curves {
 
 fn exponent() -> Exponent {
     Exponent {
-        code: Code::NATIVE,
+        code: Code::native(),
         power: Power::Linear,
         mu: 0.3,
         exponent: 0.989_588,
@@ -195,7 +195,7 @@ fn texts(svg: &str) -> Vec<String> {
 
 #[test]
 fn every_point_is_marked() {
-    let mark = Mark::of(Code::named("liggghts").unwrap());
+    let mark = Mark::of(&Code::named("liggghts").unwrap());
     let (large, small) = (mark.size, mark.small().size);
     // Errors are shown at the stiffnesses and at the frictions of the paper: 100, and of these frictions 0.3.
     for (name, errors) in [("yield-curves", FRICTIONS.len()), ("scaling", 1)] {

@@ -25,7 +25,11 @@ pub(super) fn junit(reproduction: &Reproduction, claims: &[ClaimJudgement]) -> S
     let exponents = exponents
         .chain(&reproduction.laws.exponents)
         .map(|exponent| {
-            let (code, mu, power) = (exponent.code, friction(exponent.mu), exponent.power.value());
+            let (code, mu, power) = (
+                exponent.code.clone(),
+                friction(exponent.mu),
+                exponent.power.value(),
+            );
             let name = format!("{code} at mu = {mu}, p = {power}");
             let text = format!("fitted {}, exact {}", exponent.exponent, exponent.exact);
             TestCase::new(name, status(exponent.verdict, &text))

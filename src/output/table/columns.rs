@@ -7,6 +7,7 @@ use crate::model::{Arms, ContactConvention, Law, Stack};
 use crate::output::number::{friction, or_dash};
 use crate::study::{Source, Verdict};
 use serde::Serialize;
+use std::borrow::Cow;
 use std::rc::Rc;
 
 /// Name, version and origin of a machine-readable table.
@@ -27,15 +28,15 @@ type CellOf<'a, R> = Box<dyn Fn(&R) -> String + 'a>;
 /// A column of a table with rows of type `R`.
 pub(super) struct Column<'a, R> {
     /// Name in CSV and JSON; empty for a column that is for people only.
-    pub name: &'static str,
+    pub name: Cow<'static, str>,
     /// Unit of a number, `1` for a pure one; empty for a text.
     pub unit: &'static str,
-    pub meaning: &'static str,
+    pub meaning: Cow<'static, str>,
     pub kind: ValueKind,
     /// Whether a value may be missing.
     pub is_optional: bool,
     /// Name in tables for people; `None` for a column that they leave out.
-    pub heading: Option<&'static str>,
+    pub heading: Option<Cow<'static, str>>,
     /// Its heading on a page with mathematics, where it is another one.
     pub title: Option<&'static str>,
     value: ValueOf<'a, R>,
@@ -117,15 +118,15 @@ impl<'a, R: 'a> Columns<'a, R> {
     /// A column of numbers in `unit`, `1` for pure ones.
     pub(crate) fn number<V: Typed>(
         mut self,
-        name: &'static str,
+        name: impl Into<Cow<'static, str>>,
         unit: &'static str,
         value: impl Fn(&R) -> V + 'a,
     ) -> Self {
         self.current = self.list.len();
         self.list.push(Column {
-            name,
+            name: name.into(),
             unit,
-            meaning: "",
+            meaning: "".into(),
             kind: V::KIND,
             is_optional: V::IS_OPTIONAL,
             heading: None,
@@ -140,7 +141,11 @@ impl<'a, R: 'a> Columns<'a, R> {
     }
 
     /// A column of words or flags.
-    pub(crate) fn text<V: Typed>(self, name: &'static str, value: impl Fn(&R) -> V + 'a) -> Self {
+    pub(crate) fn text<V: Typed>(
+        self,
+        name: impl Into<Cow<'static, str>>,
+        value: impl Fn(&R) -> V + 'a,
+    ) -> Self {
         self.number(name, "", value)
     }
 
@@ -154,8 +159,8 @@ impl<'a, R: 'a> Columns<'a, R> {
     }
 
     /// Says in docs/formats.md what the column means.
-    pub(crate) fn means(mut self, meaning: &'static str) -> Self {
-        self.current().meaning = meaning;
+    pub(crate) fn means(mut self, meaning: impl Into<Cow<'static, str>>) -> Self {
+        self.current().meaning = meaning.into();
         self
     }
 
@@ -166,23 +171,35 @@ impl<'a, R: 'a> Columns<'a, R> {
     }
 
     /// A column that is for people only, aligned to the left.
-    pub(crate) fn left(self, heading: &'static str, cell: impl Fn(&R) -> String + 'a) -> Self {
+    pub(crate) fn left(
+        self,
+        heading: impl Into<Cow<'static, str>>,
+        cell: impl Fn(&R) -> String + 'a,
+    ) -> Self {
         self.text("", cell).means("").shown(heading)
     }
 
     /// A column that is for people only, aligned to the right.
-    pub(crate) fn right(self, heading: &'static str, cell: impl Fn(&R) -> String + 'a) -> Self {
+    pub(crate) fn right(
+        self,
+        heading: impl Into<Cow<'static, str>>,
+        cell: impl Fn(&R) -> String + 'a,
+    ) -> Self {
         self.number("", "1", cell).means("").shown(heading)
     }
 
     /// Shows the column to people as `heading`, its numbers formatted by `digits`.
-    pub(crate) fn shown_as(self, heading: &'static str, digits: fn(f64) -> String) -> Self {
+    pub(crate) fn shown_as(
+        self,
+        heading: impl Into<Cow<'static, str>>,
+        digits: fn(f64) -> String,
+    ) -> Self {
         self.shown(heading).digits(digits)
     }
 
     /// Shows the column to people as `heading`.
-    pub(crate) fn shown(mut self, heading: &'static str) -> Self {
-        self.current().heading = Some(heading);
+    pub(crate) fn shown(mut self, heading: impl Into<Cow<'static, str>>) -> Self {
+        self.current().heading = Some(heading.into());
         self
     }
 
@@ -295,8 +312,8 @@ impl<'a, R: 'a> Columns<'a, R> {
     }
 
     /// The code of a row.
-    pub(crate) fn code(self, code: impl Fn(&R) -> Code + 'a) -> Self {
-        let name = move |row: &R| code(row).as_str();
+    pub(crate) fn code(self, code: impl Fn(&R) -> &Code + 'a) -> Self {
+        let name = move |row: &R| code(row).to_string();
         self.text("code", name)
             .means("name of the code")
             .shown("code")

@@ -43,17 +43,15 @@ impl DataTable<'_> {
     }
 
     /// The columns for people with their headings.
-    pub(super) fn headed(
-        &self,
-    ) -> impl Iterator<Item = (&'static str, &Column<'_, usize>)> + Clone {
+    pub(super) fn headed(&self) -> impl Iterator<Item = (&str, &Column<'_, usize>)> + Clone {
         let all = self.columns.iter();
-        all.filter_map(|column| Some((column.heading?, column)))
+        all.filter_map(|column| Some((column.heading.as_deref()?, column)))
     }
 
     /// The machine-readable columns as CSV, with every digit.
     pub(crate) fn csv(&self) -> String {
         let mut writer = csv::Writer::from_writer(Vec::new());
-        let header = writer.write_record(self.named().map(|column| column.name));
+        let header = writer.write_record(self.named().map(|column| column.name.as_ref()));
         header.expect("names are written to memory");
         for row in 0..self.rows {
             let values: Vec<Value> = self.named().map(|column| column.value(&row)).collect();
@@ -121,10 +119,10 @@ impl DataTable<'_> {
         let columns = |of: fn(&Column<usize>) -> serde_json::Value| -> serde_json::Value {
             let columns = self
                 .named()
-                .map(|column| (column.name.to_owned(), of(column)));
+                .map(|column| (column.name.to_string(), of(column)));
             serde_json::Value::Object(columns.collect())
         };
-        let names: Vec<&str> = self.named().map(|column| column.name).collect();
+        let names: Vec<&str> = self.named().map(|column| column.name.as_ref()).collect();
         json!({
             "description": format!("{what} In {found_in}."),
             "type": "object",
@@ -156,11 +154,11 @@ impl DataTable<'_> {
         let columns = self.named().map(|column| {
             let schema =
                 json!({ "description": column.meaning, "type": "number", "x-unit": column.unit });
-            (column.name.to_owned(), schema)
+            (column.name.to_string(), schema)
         });
         let columns: serde_json::Map<_, _> = columns.collect();
         let needed = self.named().filter(|column| !column.is_optional);
-        let names: Vec<&str> = needed.map(|column| column.name).collect();
+        let names: Vec<&str> = needed.map(|column| column.name.as_ref()).collect();
         json!({
             "description": self.schema.what,
             "type": "object",
@@ -186,7 +184,7 @@ impl DataTable<'_> {
         let columns = Columns::<&Column<usize>>::for_people()
             .left("column", |column| format!("`{}`", column.name))
             .left("unit", |column| column.unit.to_owned())
-            .left("meaning", |column| column.meaning.to_owned())
+            .left("meaning", |column| column.meaning.to_string())
             .rows(self.named())
             .shown();
         format!(
@@ -253,7 +251,7 @@ struct Row<'a>(&'a DataTable<'a>, usize);
 impl Serialize for Units<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let units = self.0.named().filter(|column| !column.unit.is_empty());
-        serializer.collect_map(units.map(|column| (column.name, column.unit)))
+        serializer.collect_map(units.map(|column| (&column.name, column.unit)))
     }
 }
 
@@ -266,6 +264,10 @@ impl Serialize for Rows<'_> {
 impl Serialize for Row<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let Self(table, row) = self;
-        serializer.collect_map(table.named().map(|column| (column.name, column.value(row))))
+        serializer.collect_map(
+            table
+                .named()
+                .map(|column| (&column.name, column.value(row))),
+        )
     }
 }

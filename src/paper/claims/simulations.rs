@@ -46,7 +46,7 @@ pub(crate) struct FittedExponent {
 impl Simulations {
     /// The native runs of a reproduction.
     pub fn native(runs: &Reproduction) -> Self {
-        let native = |code: &Code| *code == Code::NATIVE;
+        let native = |code: &Code| code.is_native();
         let exponents = runs.exponents.iter().filter(|own| native(&own.code));
         let speeds = runs.convergence.wall_speeds.iter();
         let speeds = speeds.filter(|own| native(&own.code));
@@ -176,7 +176,7 @@ fn series(published: &Published) -> (ForceSeries, String) {
 
 /// Friction, stiffness and yield force of the native rows that have one.
 fn forces(judgements: &[Judgement]) -> Vec<[f64; 3]> {
-    let native = judgements.iter().filter(|row| row.code == Code::NATIVE);
+    let native = judgements.iter().filter(|row| row.code.is_native());
     let forces = native.filter_map(|row| Some([row.mu(), row.stiffness(), row.yield_force()?]));
     forces.collect()
 }

@@ -141,7 +141,7 @@ impl Published {
         let of_series = series.iter().filter_map(|series| series.origin.as_ref());
         let tasks: Vec<PublishedRun> = of_forces.chain(of_series).map(|own| own.run).collect();
         let workload = Workload {
-            code: Code::NATIVE,
+            code: Code::native(),
             tasks,
         };
         let mut found = campaign

@@ -68,13 +68,13 @@ pub struct Convergence {
 }
 
 /// The wall speeds at which `code` runs.
-fn wall_speeds(code: Code) -> &'static [f64] {
-    &WALL_SPEEDS[..WALL_SPEEDS.len() - usize::from(code != Code::NATIVE)]
+fn wall_speeds(code: &Code) -> &'static [f64] {
+    &WALL_SPEEDS[..WALL_SPEEDS.len() - usize::from(!code.is_native())]
 }
 
 /// The time steps at which `code` runs.
-fn time_steps(code: Code) -> &'static [f64] {
-    &TIME_STEPS[..TIME_STEPS.len() - usize::from(code != Code::NATIVE)]
+fn time_steps(code: &Code) -> &'static [f64] {
+    &TIME_STEPS[..TIME_STEPS.len() - usize::from(!code.is_native())]
 }
 
 /// The runs of one code: those over the wall speed first.
@@ -84,7 +84,7 @@ fn workload(code: &SettledCode) -> Workload {
     let steps = time_steps(code.name()).iter();
     let steps = steps.filter_map(|&step| case(code, FAST_WALL, step));
     Workload {
-        code: code.name(),
+        code: code.name().clone(),
         tasks: speeds.chain(steps).collect(),
     }
 }
@@ -110,8 +110,8 @@ pub fn converge(campaign: &Campaign) -> (Convergence, Vec<RunSummary>) {
     };
     for (workload, results) in workloads.iter().zip(&results) {
         let runs = workload.tasks.iter().zip(results);
-        let mut points = runs.map(|(case, result)| point(workload.code, case, result));
-        let speeds = wall_speeds(workload.code).len();
+        let mut points = runs.map(|(case, result)| point(&workload.code.clone(), case, result));
+        let speeds = wall_speeds(&workload.code).len();
         study.wall_speeds.extend(points.by_ref().take(speeds));
         study.time_steps.extend(points);
     }
@@ -119,11 +119,11 @@ pub fn converge(campaign: &Campaign) -> (Convergence, Vec<RunSummary>) {
     (study, summaries.collect())
 }
 
-fn point(code: Code, case: &Case, result: &Result<RunSummary, RunError>) -> ConvergencePoint {
+fn point(code: &Code, case: &Case, result: &Result<RunSummary, RunError>) -> ConvergencePoint {
     let limit = quasistatic_limit(&case.stack, &case.convention);
     let estimates = result.as_ref().ok().map(|summary| summary.estimates);
     ConvergencePoint {
-        code,
+        code: code.clone(),
         wall_speed: case.protocol.wall_speed,
         time_step: case.protocol.time_step,
         slip_force: estimates.and_then(|read| Some(read.slip?.force)),
@@ -141,7 +141,7 @@ mod tests {
     #[test]
     fn every_run_of_the_study_is_valid_and_short_enough_for_every_day() {
         for workload in convergence_workloads(&SettledCode::of_power(Power::Linear)) {
-            let native = workload.code == Code::NATIVE;
+            let native = workload.code.is_native();
             assert_eq!(workload.tasks.len(), if native { 11 } else { 9 });
             for case in &workload.tasks {
                 case.validate().unwrap();

@@ -142,7 +142,7 @@ fn model_form(groups: &[Vec<SettledCode>]) -> Vec<ModelFormPoint> {
                 let paper = quasistatic_limit(&stack, &ContactConvention::PAPER);
                 let both = own.yield_force.zip(paper.yield_force);
                 points.extend(both.map(|(own, paper)| ModelFormPoint {
-                    code: code.name(),
+                    code: code.name().clone(),
                     mu,
                     stiffness,
                     difference: (own - paper) / (paper + 3.0),

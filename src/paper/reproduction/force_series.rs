@@ -68,7 +68,7 @@ pub fn force_series(campaign: &Campaign) -> Result<(ForceSeries, RunSummary), Ru
         PAPER_TIME_STEP,
     );
     let workload = Workload {
-        code: Code::NATIVE,
+        code: Code::native(),
         tasks: case.into_iter().collect(),
     };
     let results = campaign.read(&[workload]);

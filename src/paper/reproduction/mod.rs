@@ -171,12 +171,12 @@ pub(crate) fn reproduce(
 
 /// Every code with linear springs: as it takes part in `settled`, or else as its manifest declares it.
 fn with_the_rest(settled: &[SettledCode]) -> Vec<SettledCode> {
-    let all = Code::of_power(Power::Linear).into_iter();
-    let settled = all.filter_map(|code| {
-        let taking_part = settled.iter().find(|own| own.name() == code);
-        taking_part.cloned().or_else(|| code.as_declared())
-    });
-    settled.collect()
+    let rest = Code::of_power(Power::Linear).into_iter();
+    let rest = rest.filter(|code| !settled.iter().any(|own| own.name() == code));
+    let mut all = settled.to_vec();
+    all.extend(rest.filter_map(|code| code.as_declared()));
+    all.sort_by(|one, other| one.name().cmp(other.name()));
+    all
 }
 
 /// The part that needs no runs.
@@ -350,7 +350,7 @@ pub(crate) fn summaries_to_record(
             tasks.push(case);
         }
     }
-    let code = selected.name;
+    let code = selected.name.clone();
     let results = campaign.read(&[Workload { code, tasks }]);
     results.into_iter().flatten().collect()
 }

@@ -91,7 +91,7 @@ impl Recorded {
     ///
     /// # Errors
     /// If it is not, or is damaged, or was made with another deck.
-    pub fn run(&self, code: Code, case: &Case) -> Result<Run, RecordedError> {
+    pub fn run(&self, code: &Code, case: &Case) -> Result<Run, RecordedError> {
         let files = self.files(code);
         let row = self.row(&files, code, case)?;
         let path = archive_path(self.directory(), code);
@@ -110,7 +110,7 @@ impl Recorded {
     ///
     /// # Errors
     /// If there is none, or the table is damaged, or the run was made with another deck.
-    pub fn summary(&self, code: Code, case: &Case) -> Result<RunSummary, RecordedError> {
+    pub fn summary(&self, code: &Code, case: &Case) -> Result<RunSummary, RecordedError> {
         let files = self.files(code);
         Ok(self.row(&files, code, case)?.summary.clone())
     }
@@ -120,7 +120,7 @@ impl Recorded {
     /// # Errors
     /// If there is none, or it is damaged, or a micro-test was made with another deck, other parameters or
     /// arguments.
-    pub fn probe(&self, code: Code) -> Result<ProbeRecord, RecordedError> {
+    pub fn probe(&self, code: &Code) -> Result<ProbeRecord, RecordedError> {
         let files = self.files(code);
         let path = archive_path(self.directory(), code);
         let record = probe_in(self.members(&files, code)?, &path)?;
@@ -130,7 +130,7 @@ impl Recorded {
         };
         if let Some(answer) = record.outdated(|test| code.deck_hash(test)) {
             return Err(RecordedError::OtherDeck {
-                code,
+                code: code.clone(),
                 path: path.join(PROBE),
                 recorded: answer.input_hash.clone(),
                 current: code.deck_hash(&answer.test),
@@ -140,7 +140,7 @@ impl Recorded {
     }
 
     /// The recorded runs of `code`, made with any deck.
-    pub fn recording(&self, code: Code) -> Result<Recording, FileError> {
+    pub fn recording(&self, code: &Code) -> Result<Recording, FileError> {
         let directory = self.directory();
         let table = self.read(&table_path(directory, code))?;
         let archive = self.read(&archive_path(directory, code))?;
@@ -152,21 +152,34 @@ impl Recorded {
     }
 
     /// The error that nothing of the kind `what` is recorded of `code`.
-    pub(crate) fn absent(&self, code: Code, what: &'static str) -> RecordedError {
+    pub(crate) fn absent(&self, code: &Code, what: &'static str) -> RecordedError {
         let path = archive_path(self.directory(), code);
-        RecordedError::Absent { code, what, path }
+        RecordedError::Absent {
+            code: code.clone(),
+            what,
+            path,
+        }
     }
 
-    fn files(&self, code: Code) -> Arc<Files> {
+    fn files(&self, code: &Code) -> Arc<Files> {
         let mut codes = self.codes.lock().unwrap_or_else(PoisonError::into_inner);
-        Arc::clone(codes.entry(code).or_default())
+        Arc::clone(codes.entry(code.clone()).or_default())
     }
 
-    fn row<'a>(&self, files: &'a Files, code: Code, case: &Case) -> Result<&'a Row, RecordedError> {
+    fn row<'a>(
+        &self,
+        files: &'a Files,
+        code: &Code,
+        case: &Case,
+    ) -> Result<&'a Row, RecordedError> {
         let path = table_path(self.directory(), code);
         let Some(row) = self.table(files, code)?.get(&case.content_hash()) else {
             let what = "run of this case";
-            return Err(RecordedError::Absent { code, what, path });
+            return Err(RecordedError::Absent {
+                code: code.clone(),
+                what,
+                path,
+            });
         };
         let recorded = row.summary.provenance.deck_hash.clone();
         let current = code.deck_hash(case);
@@ -174,14 +187,14 @@ impl Recorded {
             return Ok(row);
         }
         Err(RecordedError::OtherDeck {
-            code,
+            code: code.clone(),
             path,
             recorded,
             current,
         })
     }
 
-    fn table<'a>(&self, files: &'a Files, code: Code) -> Result<&'a Table, RecordedError> {
+    fn table<'a>(&self, files: &'a Files, code: &Code) -> Result<&'a Table, RecordedError> {
         let table = files.table.get_or_init(|| {
             let path = table_path(self.directory(), code);
             let Some(content) = self.read(&path)? else {
@@ -195,7 +208,7 @@ impl Recorded {
         table.as_ref().map_err(|error| Arc::clone(error).into())
     }
 
-    fn members<'a>(&self, files: &'a Files, code: Code) -> Result<&'a Members, RecordedError> {
+    fn members<'a>(&self, files: &'a Files, code: &Code) -> Result<&'a Members, RecordedError> {
         let members = files.members.get_or_init(|| {
             let path = archive_path(self.directory(), code);
             let packed = self.read(&path)?;

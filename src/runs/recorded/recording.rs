@@ -84,14 +84,14 @@ impl Recording {
     ///
     /// # Errors
     /// If there is a file of one of these names that is no recording, or anything but a file.
-    pub(crate) fn check_place(directory: &Path, code: Code) -> Result<(), FileError> {
+    pub(crate) fn check_place(directory: &Path, code: &Code) -> Result<(), FileError> {
         let is_table = |content: &[u8]| has_title(content, &title(code));
         check_own(&table_path(directory, code), is_table)?;
         check_own(&archive_path(directory, code), is_archive)
     }
 
     /// Writes the table and the archive of `code` in `directory`, in place of older ones and of nothing else.
-    pub fn save(&self, directory: &Path, code: Code) -> Result<(), FileError> {
+    pub fn save(&self, directory: &Path, code: &Code) -> Result<(), FileError> {
         Self::check_place(directory, code)?;
         let (table, archive) = self.to_files(code);
         write_atomically(&archive_path(directory, code), &archive)?;
@@ -99,7 +99,7 @@ impl Recording {
     }
 
     /// Table and archive.
-    pub fn to_files(&self, code: Code) -> (String, Vec<u8>) {
+    pub fn to_files(&self, code: &Code) -> (String, Vec<u8>) {
         let mut runs: Vec<&RecordedRun> = self.runs.iter().collect();
         runs.sort_by(|left, right| compare(&left.summary.case, &right.summary.case));
         let mut members = Members::new();
@@ -126,7 +126,7 @@ impl Recording {
         table: &str,
         archive: &[u8],
         directory: &Path,
-        code: Code,
+        code: &Code,
     ) -> Result<Self, FileError> {
         let path = archive_path(directory, code);
         let members = unpack(archive, &path)?;
@@ -145,7 +145,7 @@ impl Recording {
 }
 
 /// The title of the table of `code`.
-fn title(code: Code) -> String {
+fn title(code: &Code) -> String {
     format!("Runs of {code}, recorded by `tristack record`; see reference/README.md")
 }
 
@@ -190,12 +190,12 @@ fn series_name(case: &Case, members: &Members) -> String {
 }
 
 /// The table of `code` in `directory`.
-pub(super) fn table_path(directory: &Path, code: Code) -> PathBuf {
+pub(super) fn table_path(directory: &Path, code: &Code) -> PathBuf {
     directory.join(format!("{code}.csv"))
 }
 
 /// The archive of `code` in `directory`.
-pub(super) fn archive_path(directory: &Path, code: Code) -> PathBuf {
+pub(super) fn archive_path(directory: &Path, code: &Code) -> PathBuf {
     directory.join(format!("{code}.tar.gz"))
 }
 
@@ -203,7 +203,7 @@ pub(super) fn archive_path(directory: &Path, code: Code) -> PathBuf {
 ///
 /// # Errors
 /// If it is damaged, or holds an impossible case, one twice, or a run of another code.
-pub(super) fn parse_table(text: &str, path: &Path, code: Code) -> Result<Vec<Row>, FileError> {
+pub(super) fn parse_table(text: &str, path: &Path, code: &Code) -> Result<Vec<Row>, FileError> {
     let rows = from_csv(text).and_then(|rows| {
         let mut known = HashSet::new();
         let rows = rows.into_iter().map(|row| {
@@ -219,7 +219,7 @@ pub(super) fn parse_table(text: &str, path: &Path, code: Code) -> Result<Vec<Row
     rows.map_err(|message| FileError::content(path, message))
 }
 
-fn parse_row(mut row: Value, code: Code) -> Result<Row, String> {
+fn parse_row(mut row: Value, code: &Code) -> Result<Row, String> {
     let series = row.as_object_mut().and_then(|row| row.remove(SERIES));
     let series = from_value(series.unwrap_or_default()).map_err(|error| error.to_string())?;
     let summary: RunSummary = from_value(row).map_err(|error| error.to_string())?;

@@ -77,7 +77,7 @@ impl<'a, R: Reading> Executor<'a, R> {
         request: usize,
         codes: &'a [SelectedCode],
     ) -> Option<&'a dyn InstalledCode> {
-        let code = self.requests[request].code;
+        let code = self.requests[request].code.clone();
         let selected = codes.iter().find(|selected| selected.name == code)?;
         selected.code.as_deref()
     }
@@ -95,11 +95,11 @@ impl<'a, R: Reading> Executor<'a, R> {
         let mut open = Vec::new();
         let mut total = 0;
         for selected in codes {
-            let requests = self.requests_of(selected.name);
+            let requests = self.requests_of(&selected.name);
             total += requests.len();
             match selected.code.as_deref() {
                 Some(code) => open.extend(self.without_stored(code, requests)),
-                None => self.use_recorded(selected.name, &requests),
+                None => self.use_recorded(&selected.name, &requests),
             }
         }
         let seconds = |&request: &usize| self.total_seconds(request);
@@ -146,9 +146,9 @@ impl<'a, R: Reading> Executor<'a, R> {
         (0..calls).map(hand).collect()
     }
 
-    pub(super) fn requests_of(&self, code: Code) -> Vec<usize> {
+    pub(super) fn requests_of(&self, code: &Code) -> Vec<usize> {
         let all = self.requests.iter().enumerate();
-        let own = all.filter(|(_, request)| request.code == code);
+        let own = all.filter(|(_, request)| request.code == *code);
         own.map(|(index, _)| index).collect()
     }
 
@@ -163,9 +163,9 @@ impl<'a, R: Reading> Executor<'a, R> {
         requests.map(|&request| self.total_seconds(request)).sum()
     }
 
-    fn use_recorded(&self, code: Code, requests: &[usize]) {
+    fn use_recorded(&self, code: &Code, requests: &[usize]) {
         for &request in requests {
-            let reading = R::recorded(self.task(request), code, &self.settings.recorded);
+            let reading = R::recorded(self.task(request), &code.clone(), &self.settings.recorded);
             self.fill(request, reading.map_err(RunError::from));
         }
     }
@@ -277,7 +277,7 @@ impl<'a, R: Reading> Executor<'a, R> {
         }
     }
 
-    fn run_directory(&self, code: Code) -> std::io::Result<TempDir> {
+    fn run_directory(&self, code: &Code) -> std::io::Result<TempDir> {
         let prefix = format!("{code}-");
         let root = self.settings.store.work_directory();
         tempfile::Builder::new().prefix(&prefix).tempdir_in(root)
@@ -358,7 +358,7 @@ impl<'a, R: Reading> Executor<'a, R> {
         self.report(code, finished.request, Ok(finished.outcome));
     }
 
-    pub(super) fn report(&self, code: Code, request: usize, result: Result<Outcome<R>, Failure>) {
+    pub(super) fn report(&self, code: &Code, request: usize, result: Result<Outcome<R>, Failure>) {
         self.advance(request);
         let task = self.task(request);
         task.report(code, result.as_ref(), self.progress);
@@ -376,7 +376,7 @@ impl<'a, R: Reading> Executor<'a, R> {
         kind: impl Fn() -> FailureKind,
     ) {
         for &request in requests {
-            let failure = Failure::new(code.name(), self.task(request), kind());
+            let failure = Failure::new(code.name().clone(), self.task(request), kind());
             self.report(code.name(), request, Err(failure));
         }
     }

@@ -51,8 +51,8 @@ impl SelectedCode {
     /// The code `name` as it is installed here.
     pub fn find(name: Code) -> Self {
         Self {
-            name,
             code: name.find(),
+            name,
         }
     }
 }
@@ -103,7 +103,7 @@ pub trait Progress: Sync {
     /// Work of so many of these seconds is done.
     fn advanced(&self, seconds: f64);
     /// `task` has ended, after so many seconds if they were measured.
-    fn finished(&self, code: Code, task: &dyn Display, result: Result<Option<f64>, &Failure>);
+    fn finished(&self, code: &Code, task: &dyn Display, result: Result<Option<f64>, &Failure>);
     /// A problem that does not affect the results.
     fn warn(&self, message: &str);
 }
@@ -145,7 +145,11 @@ pub trait Reading: Clone + Send {
     ///
     /// # Errors
     /// If there is none, or it cannot stand in.
-    fn recorded(task: &Self::Task, code: Code, recorded: &Recorded) -> Result<Self, RecordedError> {
+    fn recorded(
+        task: &Self::Task,
+        code: &Code,
+        recorded: &Recorded,
+    ) -> Result<Self, RecordedError> {
         task.recorded(code, recorded).map(Self::of)
     }
 }

@@ -50,7 +50,7 @@ pub(crate) fn outlook<R: Reading>(
     let mut open = Vec::new();
     let mut rows = Vec::new();
     for selected in codes {
-        let own = executor.requests_of(selected.name);
+        let own = executor.requests_of(&selected.name);
         let tasks = own.len();
         let left: Vec<usize> = match selected.code.as_deref() {
             Some(code) => {
@@ -64,7 +64,7 @@ pub(crate) fn outlook<R: Reading>(
         };
         let is_recorded = |&request: &usize| {
             let task = executor.task(request);
-            R::recorded(task, selected.name, &settings.recorded).is_ok()
+            R::recorded(task, &selected.name, &settings.recorded).is_ok()
         };
         let there = match selected.code {
             Some(_) => tasks - left.len(),
@@ -72,7 +72,7 @@ pub(crate) fn outlook<R: Reading>(
         };
         let steps = left.iter().map(|&request| executor.task(request).steps());
         rows.push(CodeOutlook {
-            code: selected.name,
+            code: selected.name.clone(),
             tasks,
             there,
             open: left.len(),
@@ -86,7 +86,7 @@ pub(crate) fn outlook<R: Reading>(
             .iter()
             .map(|&request| executor.task(request).steps());
         PlannedCall {
-            code: job.code.name(),
+            code: job.code.name().clone(),
             steps: steps.collect(),
         }
     });
@@ -102,7 +102,7 @@ struct Silent;
 impl Progress for Silent {
     fn planned(&self, _: &str, _: usize, _: usize, _: f64) {}
     fn advanced(&self, _: f64) {}
-    fn finished(&self, _: Code, _: &dyn Display, _: Result<Option<f64>, &crate::code::Failure>) {}
+    fn finished(&self, _: &Code, _: &dyn Display, _: Result<Option<f64>, &crate::code::Failure>) {}
     fn warn(&self, _: &str) {}
 }
 
@@ -128,7 +128,7 @@ mod tests {
     #[test]
     fn a_call_begins_when_another_one_has_ended() {
         let call = |steps: u64| PlannedCall {
-            code: Code::NATIVE,
+            code: Code::native(),
             steps: vec![steps],
         };
         let outlook = Outlook {

@@ -24,7 +24,7 @@ impl<'a, T: ScheduledTask> RunRequest<'a, T> {
 
     /// Estimated duration of `steps` in seconds.
     pub(super) fn seconds(&self, steps: u64) -> f64 {
-        steps as f64 * self.task.seconds_per_step(self.code)
+        steps as f64 * self.task.seconds_per_step(&self.code)
     }
 
     /// Reports to `progress` that `steps` are done in all.
@@ -41,11 +41,11 @@ pub(super) fn requests<T: ScheduledTask>(
     let mut requests = Vec::new();
     let mut known: HashMap<(Code, String), usize> = HashMap::new();
     let wanted = workloads.iter().map(|workload| {
-        let code = workload.code;
+        let code = workload.code.clone();
         let tasks = workload.tasks.iter().map(|task| {
-            let key = (code, task.content_hash());
+            let key = (code.clone(), task.content_hash());
             *known.entry(key).or_insert_with(|| {
-                requests.push(RunRequest::new(code, task));
+                requests.push(RunRequest::new(code.clone(), task));
                 requests.len() - 1
             })
         });
@@ -119,8 +119,8 @@ mod tests {
             tasks: cases.concat(),
         };
         let workloads = [
-            load(Code::NATIVE, [&some, &some[1..]]),
-            load(Code::NATIVE, [&others, &some]),
+            load(Code::native(), [&some, &some[1..]]),
+            load(Code::native(), [&others, &some]),
             load(Code::named("yade").unwrap(), [&some, &[]]),
         ];
         let (requests, wanted) = requests(&workloads);

@@ -22,7 +22,7 @@ pub trait ScheduledTask: Copy + Display + Send + Sync + 'static {
     fn steps(&self) -> u64;
 
     /// Estimated duration of a step in seconds.
-    fn seconds_per_step(&self, code: Code) -> f64 {
+    fn seconds_per_step(&self, code: &Code) -> f64 {
         code.seconds_per_step()
     }
 
@@ -54,7 +54,7 @@ pub trait ScheduledTask: Copy + Display + Send + Sync + 'static {
     ///
     /// # Errors
     /// If there is none, or it cannot stand in.
-    fn recorded(&self, code: Code, recorded: &Recorded) -> Result<Self::Outcome, RecordedError>;
+    fn recorded(&self, code: &Code, recorded: &Recorded) -> Result<Self::Outcome, RecordedError>;
 
     /// Carries out `tasks` with `code`; a failure does not keep the others from being carried out.
     fn carry_out(
@@ -65,7 +65,12 @@ pub trait ScheduledTask: Copy + Display + Send + Sync + 'static {
     );
 
     /// Reports the end of the task.
-    fn report(&self, code: Code, result: Result<&Self::Outcome, &Failure>, progress: &dyn Progress);
+    fn report(
+        &self,
+        code: &Code,
+        result: Result<&Self::Outcome, &Failure>,
+        progress: &dyn Progress,
+    );
 }
 
 impl ScheduledTask for Case {
@@ -94,7 +99,7 @@ impl ScheduledTask for Case {
         store.put(run)
     }
 
-    fn recorded(&self, code: Code, recorded: &Recorded) -> Result<Run, RecordedError> {
+    fn recorded(&self, code: &Code, recorded: &Recorded) -> Result<Run, RecordedError> {
         recorded.run(code, self)
     }
 
@@ -107,7 +112,7 @@ impl ScheduledTask for Case {
         code.run(cases, context, finished);
     }
 
-    fn report(&self, code: Code, result: Result<&Run, &Failure>, progress: &dyn Progress) {
+    fn report(&self, code: &Code, result: Result<&Run, &Failure>, progress: &dyn Progress) {
         progress.finished(code, self, result.map(|run| Some(run.provenance.seconds)));
     }
 }

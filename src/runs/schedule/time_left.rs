@@ -60,7 +60,7 @@ impl<R: Reading> Executor<'_, R> {
                 FailureKind::Interrupted
             }
         };
-        let failure = Failure::new(code.name(), self.task(request), kind);
+        let failure = Failure::new(code.name().clone(), self.task(request), kind);
         self.report(code.name(), request, Err(failure));
     }
 

@@ -46,7 +46,7 @@ pub(super) fn same_bits(first: &Series, second: Option<&Series>) -> Item {
 }
 
 /// The convention, what it changes, and whose it is: the passport in short.
-pub(super) fn information(code: Code, micro: Option<&Micro>) -> Vec<Item> {
+pub(super) fn information(code: &Code, micro: Option<&Micro>) -> Vec<Item> {
     let grade = Grade::Informational;
     let Some(micro) = micro else {
         let reason = "no task `motion`: the declared one is believed";
@@ -151,7 +151,7 @@ mod tests {
     #[test]
     fn a_spring_that_is_left_behind_is_said_to_depend_on_the_axes() {
         let finding = |measured: Option<f64>| Finding {
-            code: Code::NATIVE,
+            code: Code::native(),
             version: String::new(),
             property: "pair_spring_left_behind".to_owned(),
             key: None,

@@ -41,7 +41,7 @@ pub(super) struct Micro {
 
 impl Micro {
     /// Reads the answers of `code`; `None` if they are not those to today's questions.
-    pub fn of(code: Code, record: ProbeRecord) -> Option<Self> {
+    pub fn of(code: &Code, record: ProbeRecord) -> Option<Self> {
         let reaction = action_and_reaction(&record);
         // Those in space have equations of their own, in the probe.
         let in_the_plane = |answer: &&Answer| answer.test.space.is_none();

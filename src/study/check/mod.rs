@@ -72,10 +72,10 @@ pub fn case(convention: ContactConvention) -> Case {
 ///
 /// # Errors
 /// If there is no place for the runs.
-pub fn check(code: Code, folder: &str, context: &RunContext) -> io::Result<Report> {
+pub fn check(code: &Code, folder: &str, context: &RunContext) -> io::Result<Report> {
     let place = Scratch::new()?;
     let mut check = Check {
-        code,
+        code: code.clone(),
         context,
         report: Report::default(),
         directory: place.path(),
@@ -105,7 +105,7 @@ fn keep(place: &Scratch, report: &mut Report) -> io::Result<()> {
 }
 
 /// The command that judges `code`, whose folder is `folder`.
-fn judged_by(code: Code, folder: &str) -> String {
+fn judged_by(code: &Code, folder: &str) -> String {
     let law = match code.law().power {
         Power::Linear => "",
         Power::Hertz => "--law hertz ",
@@ -149,7 +149,7 @@ impl Check<'_> {
         ));
         self.report
             .items
-            .extend(information(self.code, micro.as_ref()));
+            .extend(information(&self.code, micro.as_ref()));
         Some(())
     }
 
@@ -330,7 +330,7 @@ impl Check<'_> {
         };
         let micro = ask(installed, &context)
             .ok()
-            .and_then(|record| Micro::of(self.code, record));
+            .and_then(|record| Micro::of(&self.code, record));
         let causes = micro.map_or_else(Vec::new, |micro| diagnosis::of_motions(&micro));
         if let Some(item) = self.report.items.last_mut().filter(|_| !causes.is_empty()) {
             item.causes = causes;
@@ -360,7 +360,7 @@ impl Check<'_> {
                     record.provenance.seconds
                 );
                 self.add(Item::passed(Grade::Mandatory, NAME, found));
-                Some(Micro::of(self.code, record))
+                Some(Micro::of(&self.code, record))
             }
             Err(failure) => {
                 self.fail(NAME, Some(&failure), None);
@@ -376,7 +376,7 @@ fn ask_native(convention: ContactConvention) -> Vec<crate::runs::Answer> {
     let mut answers = Vec::new();
     let declared = crate::code::Declaration {
         convention,
-        ..Code::NATIVE.declaration()
+        ..Code::native().declaration()
     };
     let run = |tests: &[crate::model::ContactTest]| {
         let motions: Vec<_> = tests

@@ -184,15 +184,15 @@ impl Property {
     }
 
     /// The finding on `code`.
-    pub fn judge(self, code: Code, version: &str) -> Finding {
+    pub fn judge(self, code: &Code, version: &str) -> Finding {
         let scale = match self.declared.unwrap_or_default() {
             _ if self.name.ends_with(CUBED_TURN) => (LARGEST_TURN * LARGEST_TURN).recip(),
             0.0 => 1.0,
             declared => declared.abs(),
         };
-        let relative = match code {
-            Code::NATIVE => NATIVE_TOLERANCE,
-            _ => TOLERANCE,
+        let relative = match code.is_native() {
+            true => NATIVE_TOLERANCE,
+            false => TOLERANCE,
         };
         let Measured { value, uncertainty } = self.measured;
         let known = value.is_finite() && uncertainty.is_finite();
@@ -201,7 +201,7 @@ impl Property {
             false => relative * scale,
         };
         Finding {
-            code,
+            code: code.clone(),
             version: version.to_owned(),
             key: self.key(),
             property: self.name,
@@ -225,7 +225,7 @@ mod tests {
     fn a_small_declared_value_has_a_tolerance_of_its_own() {
         let verdict = |measured: f64, declared: f64| {
             let property = Property::new("damping", Measured::new(measured, 0.0), declared);
-            property.judge(Code::named("yade").unwrap(), "").verdict
+            property.judge(&Code::named("yade").unwrap(), "").verdict
         };
         assert_eq!(verdict(0.067 * (1.0 + 0.9e-6), 0.067), Verdict::Agrees);
         assert_eq!(verdict(0.067 * (1.0 + 1.1e-6), 0.067), Verdict::Differs);

@@ -22,12 +22,12 @@ pub enum ProbeError {
     )]
     Outdated(Code),
     /// The manifest has no micro-tests.
-    #[error("`tasks.motion` is absent from its manifest{}", not_stated(*.0))]
+    #[error("`tasks.motion` is absent from its manifest{}", not_stated(.0))]
     NoMicroTests(Code),
 }
 
 /// The keys of its convention that are not stated either.
-fn not_stated(code: Code) -> String {
+fn not_stated(code: &Code) -> String {
     let keys = code.declaration().left_out;
     let keys: Vec<&str> = keys.into_iter().map(ConventionKey::as_str).collect();
     match keys.len() {
@@ -70,8 +70,9 @@ pub fn probe_all(
 ) -> Vec<Probed> {
     let records = answers(codes, settings, progress).into_iter();
     let probed = codes.iter().zip(records).map(|(selected, record)| {
-        let code = selected.name;
-        read_probe(code, record.ok_or(ProbeError::NoMicroTests(code))??)
+        let code = &selected.name;
+        let missing = || ProbeError::NoMicroTests(code.clone());
+        read_probe(code, record.ok_or_else(missing)??)
     });
     probed.collect()
 }
@@ -93,7 +94,7 @@ fn answers(
     progress: &dyn Progress,
 ) -> Vec<Option<Result<ProbeRecord, RunError>>> {
     let workloads = codes.iter().map(|selected| {
-        let code = selected.name;
+        let code = selected.name.clone();
         let able = code.check_task(TaskKind::Motion).is_ok();
         let tasks = if able { vec![MicroTests] } else { Vec::new() };
         Workload { code, tasks }
@@ -110,10 +111,12 @@ fn answers(
 ///
 /// # Errors
 /// If they are answers to other micro-tests than today's.
-pub fn read_probe(code: Code, record: ProbeRecord) -> Probed {
+pub fn read_probe(code: &Code, record: ProbeRecord) -> Probed {
     let declaration = code.declaration();
     let properties = probe(&declaration, |tests| {
-        record.answer(tests).ok_or(ProbeError::Outdated(code))
+        record
+            .answer(tests)
+            .ok_or(ProbeError::Outdated(code.clone()))
     })?;
     let nothing = Declaration {
         left_out: ConventionKey::ALL.into(),
@@ -333,7 +336,7 @@ mod tests {
 
     /// What is found of a code that is as declared, and prints so many digits.
     fn probe_with_digits(digits: usize) -> Probed {
-        let code = Code::NATIVE;
+        let code = Code::native();
         let mut answers = Vec::new();
         let properties = probe(&code.declaration(), |tests| {
             let motions = tests.iter().map(|test| {
@@ -350,7 +353,7 @@ mod tests {
         let judged = properties
             .unwrap()
             .into_iter()
-            .map(|own| own.judge(code, ""));
+            .map(|own| own.judge(&code, ""));
         let differing = judged.filter(|own| own.verdict == Verdict::Differs);
         assert_eq!(
             differing.count() > 0,
@@ -363,7 +366,7 @@ mod tests {
         };
         let provenance = Provenance::now(identity, String::new(), Vec::new(), 1, 1.0);
         read_probe(
-            code,
+            &code,
             ProbeRecord {
                 provenance,
                 answers,

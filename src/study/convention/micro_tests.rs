@@ -61,7 +61,7 @@ impl ScheduledTask for MicroTests {
         store.put_sealed(Self::KIND, &self.address(code), &record.to_json())
     }
 
-    fn recorded(&self, code: Code, recorded: &Recorded) -> Result<ProbeRecord, RecordedError> {
+    fn recorded(&self, code: &Code, recorded: &Recorded) -> Result<ProbeRecord, RecordedError> {
         recorded.probe(code)
     }
 
@@ -76,7 +76,7 @@ impl ScheduledTask for MicroTests {
         }
     }
 
-    fn report(&self, code: Code, result: Result<&ProbeRecord, &Failure>, progress: &dyn Progress) {
+    fn report(&self, code: &Code, result: Result<&ProbeRecord, &Failure>, progress: &dyn Progress) {
         let seconds = result.map(|record| Some(record.provenance.seconds));
         progress.finished(code, self, seconds);
     }
@@ -97,11 +97,11 @@ impl Reading for ProbeRecord {
 /// Whether the answers are made faster than they are read from the store, as those of the native code, on which all
 /// of tristack decides.
 fn is_faster_made(code: &dyn InstalledCode) -> bool {
-    code.name() == Code::NATIVE
+    code.name().is_native()
 }
 
 /// Whether `record` answers everything that is asked today, as it is asked today.
-fn is_current(record: &ProbeRecord, name: Code) -> bool {
+fn is_current(record: &ProbeRecord, name: &Code) -> bool {
     if record.outdated(|test| name.deck_hash(test)).is_some() {
         return false;
     }

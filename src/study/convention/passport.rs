@@ -95,15 +95,15 @@ pub fn reservations(findings: &Findings) -> Vec<String> {
 }
 
 /// The passport of `code`, of which the probe has shown `findings`.
-pub fn passport(code: Code, findings: &Findings) -> Passport<'_> {
+pub fn passport<'a>(code: &Code, findings: &'a Findings) -> Passport<'a> {
     let measured = &findings.measured;
     let others = Code::of_power(code.law().power)
         .into_iter()
-        .filter(|other| other.is_built_in() && !other.accepts_any_convention() && *other != code);
+        .filter(|other| other.is_built_in() && !other.accepts_any_convention() && other != code);
     let alike = |keys: fn(ConventionKey) -> bool| -> Vec<Code> {
         let same = others.clone().filter(|other| {
             let declared = other.as_declared();
-            has_same_limit(code, *other)
+            has_same_limit(code, other)
                 && declared.is_some_and(|other| {
                     let other = other.settled();
                     is_same(measured, other, keys)
@@ -114,7 +114,7 @@ pub fn passport(code: Code, findings: &Findings) -> Passport<'_> {
     };
     let damping = code.law().damping;
     Passport {
-        code,
+        code: code.clone(),
         findings,
         convention: ConventionKey::ALL
             .map(|key| measured_key(code, findings, key))
@@ -138,7 +138,7 @@ fn turns(settled: &Settled) -> Option<bool> {
 }
 
 /// Whether the laws of two codes have the same limit: they are the same but for their damping.
-fn has_same_limit(code: Code, other: Code) -> bool {
+fn has_same_limit(code: &Code, other: &Code) -> bool {
     let [own, theirs] = [code, other].map(|code| Law {
         damping: DampingGrowth::default(),
         ..code.law()
@@ -162,7 +162,7 @@ fn is_same(measured: &Settled, other: &Settled, keys: fn(ConventionKey) -> bool)
     })
 }
 
-fn measured_key(code: Code, findings: &Findings, key: ConventionKey) -> MeasuredKey {
+fn measured_key(code: &Code, findings: &Findings, key: ConventionKey) -> MeasuredKey {
     let declaration = code.declaration();
     let declared = !declaration.left_out.contains(&key);
     let measured = &findings.measured;

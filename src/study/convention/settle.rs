@@ -17,7 +17,7 @@ pub fn settle(
     progress: &dyn Progress,
 ) -> Vec<Settling> {
     let settled = codes.iter().map(|selected| {
-        let name = selected.name;
+        let name = &selected.name;
         if let Some(declared) = name.as_declared() {
             return (declared, None);
         }
@@ -33,9 +33,9 @@ pub fn settle(
 }
 
 /// The convention of `code` by its probe, wherever the answers come from.
-pub fn settled_by(code: Code, probed: &Probed) -> SettledCode {
+pub fn settled_by(code: &Code, probed: &Probed) -> SettledCode {
     match probed {
-        Ok(findings) => SettledCode::new(code, findings.settled.clone()),
+        Ok(findings) => SettledCode::new(code.clone(), findings.settled.clone()),
         Err(error) => code.unmeasured(&error.to_string()),
     }
 }

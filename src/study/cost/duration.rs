@@ -73,7 +73,7 @@ pub(crate) fn durations(
     for (runs, selected) in outlook.codes.iter().zip(codes) {
         let cost = match runs.open {
             0 => None,
-            _ => Some(step_cost(selected.name, bodies, context, &mut tell)?),
+            _ => Some(step_cost(&selected.name, bodies, context, &mut tell)?),
         };
         let own = outlook.calls.iter().filter(|call| call.code == runs.code);
         let own = own.map(|call| cost.map_or(0.0, |cost| cost.seconds(call)));
@@ -87,9 +87,9 @@ pub(crate) fn durations(
             core_seconds: own.sum::<f64>() + probe.unwrap_or(0.0),
         });
     }
-    let cost_of = |code: Code| rows.iter().find(|row| row.runs.code == code)?.cost;
+    let cost_of = |code: &Code| rows.iter().find(|row| row.runs.code == *code)?.cost;
     let seconds = outlook.seconds(settings.threads, |call| {
-        cost_of(call.code).map_or(0.0, |cost| cost.seconds(call))
+        cost_of(&call.code).map_or(0.0, |cost| cost.seconds(call))
     });
     // Micro-tests come first, one code a thread.
     let probes: Vec<f64> = rows.iter().filter_map(|row| row.probe).collect();
@@ -104,7 +104,7 @@ impl StepCost {
         self.start + self.step * call.steps.iter().sum::<u64>() as f64
     }
 
-    fn of_manifest(code: Code) -> Self {
+    fn of_manifest(code: &Code) -> Self {
         Self {
             step: code.seconds_per_step(),
             start: code.start_seconds(),
@@ -125,7 +125,7 @@ fn probe_seconds(code: &dyn InstalledCode, settings: &Settings) -> Option<f64> {
 
 /// The cost of a step of `code` by a measurement of a second or two; that of the manifest where it fails.
 fn step_cost(
-    code: Code,
+    code: &Code,
     bodies: u8,
     context: &RunContext,
     tell: &mut impl FnMut(&BenchError),
@@ -143,17 +143,17 @@ fn step_cost(
 }
 
 /// The same; `None` where the steps do not take long enough to be told from the start.
-fn measured(code: Code, bodies: u8, context: &RunContext) -> Result<Option<StepCost>, BenchError> {
-    let target = match code {
-        Code::NATIVE => BenchTarget::NativeLanes,
-        external => BenchTarget::External(external),
+fn measured(code: &Code, bodies: u8, context: &RunContext) -> Result<Option<StepCost>, BenchError> {
+    let target = match code.is_native() {
+        true => BenchTarget::NativeLanes,
+        false => BenchTarget::External(code.clone()),
     };
     // What its manifest leaves out does not change the duration of a step.
     let target = InstalledTarget::find(target, &code.unmeasured(""))?;
     let [fewest, most] = STEPS;
-    let steps = match code {
-        Code::NATIVE => NATIVE_STEPS,
-        external => (MEASURED_SECONDS / external.seconds_per_step()).clamp(fewest, most),
+    let steps = match code.is_native() {
+        true => NATIVE_STEPS,
+        false => (MEASURED_SECONDS / code.seconds_per_step()).clamp(fewest, most),
     };
     let [(few, short), (many, long)] = short_and_long(&target, bodies, steps as u64, context)?;
     let step = (long - short) / (many - few) as f64;

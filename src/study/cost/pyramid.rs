@@ -67,7 +67,7 @@ impl PyramidBench {
     /// If a code is missing or does not build pyramids, or a run fails.
     pub fn measure(&self, context: &RunContext) -> Result<Vec<PyramidCost>, BenchError> {
         let find = |settled| {
-            let code = SettledCode::name(settled);
+            let code = SettledCode::name(settled).clone();
             let found = code.find().ok_or(BenchError::Missing { code })?;
             Ok((settled, found))
         };
@@ -112,7 +112,7 @@ impl PyramidBench {
     ) -> PyramidCost {
         let pyramid = self.pyramid(settled, rows);
         PyramidCost {
-            code: code.name(),
+            code: code.name().clone(),
             version: code.identity().version.clone(),
             rows,
             cylinders: pyramid.cylinder_count(),
@@ -153,7 +153,7 @@ mod tests {
 
     fn cost(nanoseconds: &[f64]) -> PyramidCost {
         PyramidCost {
-            code: Code::NATIVE,
+            code: Code::native(),
             version: String::new(),
             rows: 2,
             cylinders: 3,

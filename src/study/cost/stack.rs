@@ -78,7 +78,7 @@ pub(crate) fn measure_stack(
     context: &RunContext,
 ) -> Result<Vec<StackCost>, BenchError> {
     let targets = codes.iter().flat_map(|code| {
-        let targets = BenchTarget::of(code.name()).into_iter();
+        let targets = BenchTarget::of(code.name().clone()).into_iter();
         targets.map(move |target| InstalledTarget::find(target, code))
     });
     let targets: Vec<_> = targets.collect::<Result<_, _>>()?;
@@ -114,9 +114,9 @@ pub(super) fn short_and_long(
     steps: u64,
     context: &RunContext,
 ) -> Result<[(u64, f64); 2], BenchError> {
-    let count = match target.code.name() {
-        Code::NATIVE => NATIVE_CASES,
-        _ => 1,
+    let count = match target.code.name().is_native() {
+        true => NATIVE_CASES,
+        false => 1,
     };
     let [short, long] =
         [1, LENGTHS].map(|part| timed_cases((&target.settled, bodies), count, steps, part));
@@ -200,7 +200,7 @@ fn timed_protocol(steps: u64, part: u64) -> Protocol {
 impl StackCost {
     fn nothing_yet(target: &InstalledTarget) -> Self {
         Self {
-            target: target.target,
+            target: target.target.clone(),
             version: target.code.identity().version.clone(),
             steps: 0,
             nanoseconds: Vec::new(),

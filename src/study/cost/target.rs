@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 use thiserror::Error;
 
 /// A code that is timed: external, or native in one of its two modes.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq)]
 pub enum BenchTarget {
     /// Native, a run at a time.
     NativeScalar,
@@ -38,14 +38,14 @@ pub enum BenchError {
 impl BenchTarget {
     /// The targets of `code`.
     pub fn of(code: Code) -> Vec<Self> {
-        match code {
-            Code::NATIVE => vec![Self::NativeScalar, Self::NativeLanes],
-            external => vec![Self::External(external)],
+        match code.is_native() {
+            true => vec![Self::NativeScalar, Self::NativeLanes],
+            false => vec![Self::External(code)],
         }
     }
 
     /// The name in tables.
-    pub fn as_str(self) -> &'static str {
+    pub fn as_str(&self) -> &str {
         match self {
             Self::NativeScalar => "native-scalar",
             Self::NativeLanes => "native-lanes",
@@ -54,10 +54,10 @@ impl BenchTarget {
     }
 
     /// The code behind it.
-    pub fn code(self) -> Code {
+    pub fn code(&self) -> Code {
         match self {
-            Self::NativeScalar | Self::NativeLanes => Code::NATIVE,
-            Self::External(code) => code,
+            Self::NativeScalar | Self::NativeLanes => Code::native(),
+            Self::External(code) => code.clone(),
         }
     }
 }
@@ -141,7 +141,7 @@ impl InstalledTarget {
 /// the two compute the same thing.
 pub(super) fn convention(code: &SettledCode) -> ContactConvention {
     let own = code.convention();
-    if code.name() != Code::NATIVE {
+    if !code.name().is_native() {
         return own;
     }
     let others = Code::of_power(Power::Linear).into_iter().skip(1);

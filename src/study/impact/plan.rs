@@ -185,7 +185,7 @@ pub fn plan_impacts(code: &SettledCode, convention: ContactConvention) -> Vec<Im
 }
 
 /// The restitution of an elastic impact that `code` accepts.
-fn elastic(code: Code, convention: &ContactConvention) -> f64 {
+fn elastic(code: &Code, convention: &ContactConvention) -> f64 {
     let asked = ContactConvention {
         restitution: 1.0,
         ..*convention

@@ -99,11 +99,11 @@ impl Study for ImpactStudy {
 
     fn workloads(&self) -> Vec<Workload<ImpactRun>> {
         let own = Workload {
-            code: self.code.name(),
+            code: self.code.name().clone(),
             tasks: self.runs.to_vec(),
         };
         let twin = (self.reference() == Reference::Twin).then(|| Workload {
-            code: Code::NATIVE,
+            code: Code::native(),
             tasks: self.twin(),
         });
         std::iter::once(own).chain(twin).collect()

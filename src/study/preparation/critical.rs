@@ -82,7 +82,7 @@ fn touching(campaign: &Campaign, pushed: &[(Stack, f64)]) -> Result<Vec<bool>, R
     let workloads = pushed.iter().map(|(stack, push)| {
         let plan = plan_preparation(&native, &native, stack, Some(*push));
         Workload {
-            code: native.name(),
+            code: native.name().clone(),
             tasks: plan.cases().get(MIDDLE_RUN).copied().into_iter().collect(),
         }
     });

@@ -70,7 +70,7 @@ pub fn plan_preparation(
     }
     PreparationPlan {
         code: code.clone(),
-        convention_of: convention_of.name(),
+        convention_of: convention_of.name().clone(),
         push,
         measurement,
     }

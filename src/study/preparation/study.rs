@@ -62,19 +62,20 @@ impl PreparationStudy {
     /// The rows of `code` with the convention of `convention_of`.
     pub(crate) fn rows_of(
         &self,
-        code: Code,
-        convention_of: Code,
+        code: &Code,
+        convention_of: &Code,
     ) -> impl Iterator<Item = &PreparationRow> {
         let own =
-            move |row: &&PreparationRow| row.code == code && row.convention_of == convention_of;
+            move |row: &&PreparationRow| row.code == *code && row.convention_of == *convention_of;
         self.rows.iter().filter(own)
     }
 
     /// By how much F at `push` is above F at A = 0, natively under the paper's convention, relative to
     /// F + 3.
     pub fn shift(&self, push: f64) -> Option<f64> {
+        let native = Code::native();
         let force = |push: f64| {
-            let mut rows = self.rows_of(Code::NATIVE, Code::NATIVE);
+            let mut rows = self.rows_of(&native, &native);
             rows.find(|row| row.push == Some(push))?.yield_force
         };
         let unpushed = force(0.0)?;
@@ -135,8 +136,8 @@ pub fn study_preparation(
 ) -> Result<Vec<PreparationStudy>, RunError> {
     let critical = critical_pushes(campaign, stacks)?;
     let mut all = [&[SettledCode::native()], codes].concat();
-    all.sort_by_key(SettledCode::name);
-    all.dedup_by_key(|code| code.name());
+    all.sort_by(|one, other| one.name().cmp(other.name()));
+    all.dedup_by(|one, other| one.name() == other.name());
     let plans = stacks.iter().zip(&critical);
     let plans =
         plans.map(|(stack, critical)| plans_of(stack, relative_pushes, critical.as_ref(), &all));
@@ -171,17 +172,17 @@ fn plans_of(
     let mut plans = Vec::new();
     let native = SettledCode::native();
     for own in codes {
-        let twin = (own.name() != Code::NATIVE).then_some(&native);
+        let twin = (!own.name().is_native()).then_some(&native);
         for code in [own].into_iter().chain(twin) {
             plans.extend(preparations().map(|push| plan_preparation(code, own, stack, push)));
         }
     }
     plans.retain(|plan| {
         // A twin without its original is of no use.
-        let names = [plan.code.name(), plan.convention_of];
+        let names = [plan.code.name(), &plan.convention_of];
         let offered = |case: &Case| {
             let preparation = &case.protocol.preparation;
-            let refused = |name: Code| name.check_preparation(stack, preparation).is_err();
+            let refused = |name: &Code| name.check_preparation(stack, preparation).is_err();
             !names.into_iter().any(refused)
         };
         plan.cases().iter().all(offered)
@@ -286,8 +287,8 @@ impl PreparationRow {
         let finding = judged.finding.as_ref();
         let force = finding.and_then(|finding| finding.yield_force);
         Self {
-            code: plan.code.name(),
-            convention_of: plan.convention_of,
+            code: plan.code.name().clone(),
+            convention_of: plan.convention_of.clone(),
             push: plan.push,
             limit_force: limit_force(&plan),
             contact_force: finding.and_then(|finding| finding.contact_force),

@@ -115,7 +115,7 @@ impl Study for SidePlan {
 
     fn workloads(&self) -> Vec<Workload<EventRun>> {
         vec![Workload {
-            code: Code::NATIVE,
+            code: Code::native(),
             tasks: vec![self.run],
         }]
     }

@@ -86,7 +86,7 @@ impl Study for PeakPlan {
 
     fn workloads(&self) -> Vec<Workload<EventRun>> {
         vec![Workload {
-            code: Code::NATIVE,
+            code: Code::native(),
             tasks: self.runs.clone(),
         }]
     }

@@ -47,11 +47,11 @@ impl Study for Trajectory {
 
     fn workloads(&self) -> Vec<Workload> {
         let own = Workload {
-            code: self.code.name(),
+            code: self.code.name().clone(),
             tasks: self.cases.clone(),
         };
         let twins = self.twins.iter().map(|runs| Workload {
-            code: Code::NATIVE,
+            code: Code::native(),
             tasks: runs.all().copied().collect(),
         });
         std::iter::once(own).chain(twins).collect()

@@ -54,7 +54,7 @@ impl Documented {
     /// An experiment with YADE confirms it: if native, too, has contacts of zero overlap, the distance is 1e-14 up to
     /// the peak, and 3e-10 of second order in the collapse, because YADE's spring, a vector, keeps a small component
     /// along the normal when it is turned linearly.
-    fn first_touch(code: Code) -> Self {
+    fn first_touch(code: &Code) -> Self {
         let reason = format!(
             "{} knows contacts of zero overlap: its wall, which just touches at row 0, pushes with its damping \
              force for one step that the twin goes without",
@@ -70,7 +70,7 @@ impl Documented {
     }
 
     /// The difference in the angles, if there is one.
-    fn angle(code: Code, quantity: Quantity) -> Option<Self> {
+    fn angle(code: &Code, quantity: Quantity) -> Option<Self> {
         let angle = match (quantity, code.integration().angle) {
             (Quantity::Theta2, angle) => angle,
             // Of spheres every deck sums the spin.
@@ -104,7 +104,7 @@ impl Documented {
 }
 
 /// The documented order of the distance in `quantity` on `branch` between `code` and its `twin`.
-pub fn documented(code: Code, twin: Twin, quantity: Quantity, branch: Branch) -> Documented {
+pub fn documented(code: &Code, twin: Twin, quantity: Quantity, branch: Branch) -> Documented {
     let angle = Documented::angle(code, quantity);
     let touches = code.integration().touches_at_zero_overlap;
     let full = twin == Twin::Full;

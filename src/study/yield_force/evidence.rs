@@ -1,7 +1,6 @@
 //! The kind of evidence behind a row, and what it does not prove.
 
 use super::judgement::Judgement;
-use crate::code::Code;
 use crate::study::Source;
 
 /// Kinds of evidence, strongest first.
@@ -28,11 +27,11 @@ impl Evidence {
 
     /// The evidence of a row.
     pub fn of(judgement: &Judgement) -> Self {
-        match (judgement.source, judgement.code) {
-            (Source::Recorded, _) => Self::RecordedRun,
-            (Source::Files, _) => Self::ResultFiles,
-            (Source::Live, Code::NATIVE) => Self::ClosedForm,
-            (Source::Live, _) => Self::IndependentCode,
+        match judgement.source {
+            Source::Recorded => Self::RecordedRun,
+            Source::Files => Self::ResultFiles,
+            Source::Live if judgement.code.is_native() => Self::ClosedForm,
+            Source::Live => Self::IndependentCode,
         }
     }
 

@@ -48,7 +48,7 @@ impl Study for Measurement {
 
     fn workloads(&self) -> Vec<Workload> {
         vec![Workload {
-            code: self.code.name(),
+            code: self.code.name().clone(),
             tasks: self.cases.clone(),
         }]
     }

@@ -3,7 +3,7 @@
 use crate::code::Code;
 use crate::model::{ContactConvention, Stack};
 use crate::theory::quasistatic_limit;
-use rayon::iter::{IntoParallelRefIterator, ParallelIterator};
+use rayon::iter::{IntoParallelIterator, ParallelIterator};
 
 /// Range of the floor frictions of a curve: less slides under its own weight in some law.
 const FRICTIONS: (f64, f64) = (0.105, 0.5);
@@ -38,7 +38,7 @@ fn different_limits(all: &[(Code, ContactConvention)]) -> Vec<(Code, ContactConv
     let mut first: Vec<(Code, ContactConvention)> = Vec::new();
     for own in all {
         if !first.iter().any(|other| has_limit_of(&other.1, &own.1)) {
-            first.push(*own);
+            first.push(own.clone());
         }
     }
     first
@@ -52,7 +52,7 @@ pub(crate) fn law_curves(
 ) -> Vec<LawCurve> {
     let curves = different_limits(codes).into_iter().flat_map(|own| {
         let stiffnesses = stiffnesses.iter();
-        stiffnesses.map(move |&stiffness| (own, stiffness))
+        stiffnesses.map(move |&stiffness| (own.clone(), stiffness))
     });
     let curves: Vec<_> = curves.collect();
     let (least, most) = FRICTIONS;
@@ -61,21 +61,23 @@ pub(crate) fn law_curves(
         least + part * (most - least)
     });
     let frictions: Vec<f64> = frictions.collect();
-    let curves = curves.par_iter().map(|&((code, convention), stiffness)| {
-        let points = frictions.iter().map(|&mu| {
-            let stack = Stack {
-                stiffness_ratio,
-                ..Stack::paper(mu, stiffness)
-            };
-            let limit = quasistatic_limit(&stack, &convention);
-            (mu, limit.slip_onset, limit.yield_force)
+    let curves = curves
+        .into_par_iter()
+        .map(|((code, convention), stiffness)| {
+            let points = frictions.iter().map(|&mu| {
+                let stack = Stack {
+                    stiffness_ratio,
+                    ..Stack::paper(mu, stiffness)
+                };
+                let limit = quasistatic_limit(&stack, &convention);
+                (mu, limit.slip_onset, limit.yield_force)
+            });
+            LawCurve {
+                code,
+                stiffness,
+                points: points.collect(),
+            }
         });
-        LawCurve {
-            code,
-            stiffness,
-            points: points.collect(),
-        }
-    });
     curves.collect()
 }
 
@@ -91,10 +93,10 @@ mod tests {
         styles.retain(|code| !code.name().accepts_any_convention());
         let styles: Vec<_> = styles
             .into_iter()
-            .map(|code| (code.name(), code.convention()))
+            .map(|code| (code.name().clone(), code.convention()))
             .collect();
-        let different = different_limits(&styles).into_iter();
-        let names: Vec<&str> = different.map(|(code, _)| code.as_str()).collect();
+        let different = different_limits(&styles);
+        let names: Vec<&str> = different.iter().map(|(code, _)| code.as_str()).collect();
         let expected = [
             "liggghts-hertz",
             "yade-mindlin",

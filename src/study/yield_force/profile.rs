@@ -123,8 +123,8 @@ impl Profile {
     }
 }
 
-fn is_run_literally(code: Code, stack: &Stack) -> bool {
-    code == Code::NATIVE || (stack.floor_friction, stack.stiffness) == LITERAL_STACK
+fn is_run_literally(code: &Code, stack: &Stack) -> bool {
+    code.is_native() || (stack.floor_friction, stack.stiffness) == LITERAL_STACK
 }
 
 #[cfg(test)]
@@ -150,10 +150,10 @@ mod tests {
         let literal = |code| {
             let own = measurements
                 .iter()
-                .filter(move |row| row.code.name() == code);
+                .filter(move |row| *row.code.name() == code);
             own.filter(|row| row.method == Method::Literal).count()
         };
-        assert_eq!(literal(Code::NATIVE), 75);
+        assert_eq!(literal(Code::native()), 75);
         assert_eq!(literal(Code::named("lammps").unwrap()), 1);
         assert_eq!(
             measurements.len(),

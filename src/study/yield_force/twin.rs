@@ -25,7 +25,7 @@ pub(crate) fn measure_with_twin(
     let version = code.identity().version.clone();
     let package = code.identity().package.clone();
     let twin = SelectedCode {
-        name: measurement.code.name(),
+        name: measurement.code.name().clone(),
         code: Some(code),
     };
     let results = read_all(&measurement.workloads(), &[twin], settings, progress);

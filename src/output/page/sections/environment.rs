@@ -32,7 +32,7 @@ pub(super) fn section(reproduction: &Reproduction, origin: &Origin) -> Section {
                 "First {SHORT} digits of the SHA-256 of the decks; for the native DEM its sources take their \
                  place."
             ),
-            &decks(),
+            &decks(reproduction.probes.iter().map(|(code, _)| code)),
         ),
     ];
     Section::new("environment", "Environment", blocks)
@@ -124,13 +124,15 @@ fn minute(date: &str) -> String {
     date.get(..16).unwrap_or(date).replace('T', " ")
 }
 
-pub(crate) fn decks() -> DataTable<'static> {
+pub(crate) fn decks<'a>(codes: impl Iterator<Item = &'a Code>) -> DataTable<'static> {
+    let mut all = Code::built_in();
+    all.extend(codes.cloned());
     Columns::<Code>::new(
         "decks",
         "A row is the decks of one code; for the native DEM its sources take their place.",
         "`tristack report` (tables/decks.csv)",
     )
-    .code(|code| *code)
+    .code(|code| code)
     .text("deck_hash", |code| code.files_hash(TaskKind::Stack))
     .means("SHA-256 of the deck of a stack")
     .shown("SHA-256 of the deck of a stack")
@@ -139,5 +141,5 @@ pub(crate) fn decks() -> DataTable<'static> {
     .means("SHA-256 of the deck of the micro-tests")
     .shown("of the micro-tests")
     .cell(|code| short(&code.files_hash(TaskKind::Motion)))
-    .rows(Code::all())
+    .rows(Code::distinct(&all))
 }

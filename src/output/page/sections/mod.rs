@@ -34,7 +34,7 @@ pub(crate) fn declared_tables() -> Vec<DataTable<'static>> {
         preparation::preparations(&[]),
         spheres::limits(&[]),
         environment::programs(&[], &[]),
-        environment::decks(),
+        environment::decks(std::iter::empty()),
     ]
 }
 

@@ -83,7 +83,7 @@ pub(crate) fn preparations(studies: &[PreparationStudy]) -> DataTable<'_> {
         "`tristack report` (tables/preparation.csv)",
     )
     .stack(|(stack, _)| *stack)
-    .code(|(_, row)| row.code)
+    .code(|(_, row)| &row.code)
     .text("convention_of", |(_, row)| row.convention_of.as_str())
     .means("the code whose contact convention it ran with")
     .shown("convention of")

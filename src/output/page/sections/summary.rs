@@ -185,7 +185,7 @@ fn of_rows(reproduction: &Reproduction) -> String {
 fn of_scaling(reproduction: &Reproduction) -> Option<String> {
     let of = |mu: f64| {
         let mut all = reproduction.exponents.iter();
-        all.find(|exponent| exponent.code == Code::NATIVE && exponent.mu == mu)
+        all.find(|exponent| exponent.code.is_native() && exponent.mu == mu)
     };
     let (at, above) = (of(CRITICAL_FRICTION)?, of(0.3)?);
     let agreeing = reproduction.exponents.iter();
@@ -205,7 +205,7 @@ fn of_scaling(reproduction: &Reproduction) -> Option<String> {
 fn of_laws(reproduction: &Reproduction) -> Option<String> {
     let laws = &reproduction.laws;
     let judged = |row: &&Judgement| (row.mu(), row.stiffness()) == SPREAD;
-    let onset = |row: &Judgement| Some((row.study.limit.slip_onset?, row.code));
+    let onset = |row: &Judgement| Some((row.study.limit.slip_onset?, row.code.clone()));
     let onsets = laws.yield_curves.iter().filter(judged).filter_map(onset);
     let lowest = onsets
         .clone()
@@ -247,7 +247,7 @@ const SPREAD: (f64, f64) = (0.3, 1e4);
 fn of_convergence(reproduction: &Reproduction) -> Option<String> {
     let mut points = reproduction.convergence.wall_speeds.iter();
     let paper =
-        points.find(|point| point.code == Code::NATIVE && point.wall_speed == PAPER_WALL_SPEED)?;
+        points.find(|point| point.code.is_native() && point.wall_speed == PAPER_WALL_SPEED)?;
     Some(format!(
         "At the paper’s own settings (wall speed $10^{{-6}}$, time step $10^{{-3}}$) and the point of its convergence \
          figure ($\\mu = 0.2$, stiffness $10^4$) the peak deviates by {:+.2} % from the limit, the onset of slip \
@@ -321,9 +321,15 @@ pub(crate) fn points(judgements: &[Judgement]) -> DataTable<'_> {
     })
     .means("exact quasi-static limit under the paper's convention")
     .shown_as("exact limit", digits::<7>);
-    for code in Code::of_power(Power::Linear) {
+    let built_in = Code::of_power(Power::Linear);
+    let codes = built_in
+        .iter()
+        .chain(judgements.iter().map(|row| &row.code));
+    for code in Code::distinct(codes) {
+        let name = code.to_string();
+        let is_here = judgements.iter().any(|row| row.code == code);
         columns = columns
-            .number(code.as_str(), "m g", move |theory| {
+            .number(name.clone(), "m g", move |theory| {
                 let stack = &theory.stack;
                 let mut rows = judgements.iter();
                 let own = rows.find(|row| {
@@ -334,8 +340,8 @@ pub(crate) fn points(judgements: &[Judgement]) -> DataTable<'_> {
             })
             .means("F by this code");
         // The page has no empty columns for codes that were not run.
-        if judgements.iter().any(|row| row.code == code) {
-            columns = columns.shown_as(code.as_str(), digits::<7>);
+        if is_here {
+            columns = columns.shown_as(name, digits::<7>);
         }
     }
     columns.rows(rows)

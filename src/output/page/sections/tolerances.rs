@@ -23,8 +23,8 @@ pub(super) struct Agreement {
 impl Agreement {
     /// One for every code with rows among `judgements`.
     pub fn of(judgements: &[Judgement]) -> Vec<Self> {
-        let codes = Code::all().into_iter();
-        let all = codes.map(|code| {
+        let codes = Code::distinct(judgements.iter().map(|row| &row.code));
+        let all = codes.into_iter().map(|code| {
             let rows = judgements.iter();
             let rows: Vec<_> = rows.filter(|row| row.code == code).collect();
             let agreeing = rows.iter().filter(|row| row.verdict() == Verdict::Agrees);
@@ -127,7 +127,7 @@ pub(crate) fn agreement<'a>(figures: &[(&'a str, &[Judgement])]) -> DataTable<'a
         "A row counts the rows of one code in one figure that agree with the exact limit.",
         "`tristack report` (tables/agreement.csv)",
     )
-    .code(|(own, _)| own.code)
+    .code(|(own, _)| &own.code)
     .text("figure", |(_, figure)| *figure)
     .means("name of the figure")
     .shown("figure")
@@ -153,7 +153,7 @@ pub(crate) fn exponents<'a>(exponents: impl IntoIterator<Item = &'a Exponent>) -
          one friction.",
         "`tristack report` (tables/exponents.csv)",
     )
-    .code(|own| own.code)
+    .code(|own| &own.code)
     .number("mu", "1", |own| own.mu)
     .means("floor friction μ")
     .shown_as("$\\mu$", friction)

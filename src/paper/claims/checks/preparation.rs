@@ -79,7 +79,8 @@ const MISSING: &str = "there is no native study of the preparation in this repro
 
 /// Pushes and the contact forces that they leave, natively under the paper's convention, sorted by push.
 fn contact_forces(study: &PreparationStudy) -> Vec<(f64, Option<f64>)> {
-    let rows = study.rows_of(Code::NATIVE, Code::NATIVE);
+    let native = Code::native();
+    let rows = study.rows_of(&native, &native);
     let pushed = rows.filter_map(|row| Some((row.push?, row.contact_force)));
     let mut pushed: Vec<_> = pushed.collect();
     pushed.sort_by(|left, right| left.0.total_cmp(&right.0));

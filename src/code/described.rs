@@ -7,81 +7,136 @@ use super::manifest::{Definition, Integration, Mark, RefusedOutside, RefusedValu
 use super::manifest_error::{ManifestError, refused};
 use super::search_path::SEARCH_PATH;
 use crate::model::{ContactConvention, InvalidValue, Law, Power, Preparation, Stack};
-use serde::{Deserialize, Deserializer, Serialize, Serializer};
-use std::collections::BTreeMap;
+use serde::{Serialize, Serializer};
+use std::cmp::Ordering;
+use std::collections::BTreeSet;
+use std::hash::{Hash, Hasher};
 use std::path::{Path, PathBuf};
-use std::sync::{LazyLock, Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, LazyLock};
 use std::time::Duration;
 
-#[derive(Default)]
-struct Registry {
-    definitions: Vec<&'static Definition>,
-    /// Folders that have been read, each with its codes.
-    folders: BTreeMap<PathBuf, Vec<Code>>,
+/// A code as its folder describes it. Codes are ordered as in tables and figures: those of this program first.
+#[derive(Clone)]
+pub struct Code(Arc<Described>);
+
+#[derive(Clone)]
+struct Described {
+    definition: Definition,
+    /// Its place among the codes of this program; behind them for one that was given by path.
+    place: usize,
+    /// The folder that it was read from; absent for a code of this program.
+    folder: Option<PathBuf>,
+    /// The variants of its folder that come before it.
+    earlier: Vec<Code>,
+    /// How many of the codes before it choose no mark either.
+    turn: usize,
 }
 
-static REGISTRY: LazyLock<Mutex<Registry>> = LazyLock::new(|| {
-    let definitions = BUILT_IN.iter().flat_map(|folder| {
-        let definitions = Definition::read_folder(Folder::BuiltIn(*folder));
-        definitions.expect("a folder of this program is in order")
-    });
-    Mutex::new(Registry {
-        definitions: definitions.map(leaked).collect(),
-        folders: BTreeMap::new(),
-    })
+/// The codes whose folders are part of this program. The native one is the first.
+static BUILT_IN_CODES: LazyLock<Vec<Code>> = LazyLock::new(|| {
+    let mut codes = Vec::new();
+    for folder in BUILT_IN {
+        let read = Definition::read_folder(Folder::BuiltIn(folder));
+        let read = read.expect("a folder of this program is in order");
+        codes.extend(Code::of_folder(read, codes.len(), None));
+    }
+    codes
 });
-
-fn registry() -> MutexGuard<'static, Registry> {
-    REGISTRY.lock().unwrap_or_else(PoisonError::into_inner)
-}
-
-/// `definition`, kept until the program ends.
-fn leaked(definition: Definition) -> &'static Definition {
-    Box::leak(Box::new(definition))
-}
-
-/// A code. Codes are ordered as in tables and figures.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub struct Code(usize);
 
 impl Code {
     /// The DEM of this program.
-    pub const NATIVE: Self = Self(0);
-
-    /// Every code: the built-in ones, and those of the folders that were given.
-    pub fn all() -> Vec<Self> {
-        (0..registry().definitions.len()).map(Self).collect()
+    pub fn native() -> Self {
+        BUILT_IN_CODES[0].clone()
     }
 
-    /// Every code whose normal force grows with this power of the overlap; that of the native code with any.
+    /// Whether it is the DEM of this program.
+    pub fn is_native(&self) -> bool {
+        self.0.place == 0
+    }
+
+    /// The codes whose folders are part of this program.
+    pub fn built_in() -> Vec<Self> {
+        BUILT_IN_CODES.clone()
+    }
+
+    /// Those of them whose normal force grows with this power of the overlap; that of the native code with any.
     pub fn of_power(power: Power) -> Vec<Self> {
-        let mut codes = Self::all();
+        let mut codes = Self::built_in();
         codes.retain(|code| code.has_power(power));
         codes
     }
 
     /// Whether its normal force grows with this power of the overlap.
-    pub(crate) fn has_power(self, power: Power) -> bool {
+    pub(crate) fn has_power(&self, power: Power) -> bool {
         self.accepts_any_convention() || self.law().power == power
     }
 
-    /// The code with the given `name`.
+    /// The code of this program with the given `name`.
     pub fn named(name: &str) -> Option<Self> {
-        Self::all().into_iter().find(|code| code.as_str() == name)
+        let mut codes = BUILT_IN_CODES.iter();
+        codes.find(|code| code.as_str() == name).cloned()
     }
 
-    /// The codes in `folder`, in the order of their names. A folder is read once.
+    /// The codes of `definitions`, which are all of one folder: at `path`, or of this program from `place` on.
+    fn of_folder(definitions: Vec<Definition>, place: usize, path: Option<&Path>) -> Vec<Self> {
+        let mut codes = Vec::new();
+        for (index, definition) in definitions.into_iter().enumerate() {
+            let code = Self(Arc::new(Described {
+                definition,
+                place: place.saturating_add(index),
+                folder: path.map(Path::to_owned),
+                earlier: codes.clone(),
+                turn: 0,
+            }));
+            codes.push(code);
+        }
+        codes
+    }
+
+    /// The codes in `folder`, in the order of their names.
     ///
     /// # Errors
-    /// If the folder describes no code, or one whose name is taken.
+    /// If the folder describes no code, or one whose name is that of a code of this program.
     pub(crate) fn all_in_folder(folder: &Path) -> Result<Vec<Self>, ManifestError> {
         let place = folder.canonicalize().unwrap_or_else(|_| folder.to_owned());
-        let mut registry = registry();
-        if !registry.folders.contains_key(&place) {
-            let own = registry.add(Definition::read(folder)?)?;
-            registry.folders.insert(place.clone(), own);
+        let read = Definition::read(folder)?;
+        if let Some(new) = read.iter().find(|new| Self::named(&new.name).is_some()) {
+            return Err(taken(new));
         }
-        Ok(registry.folders[&place].clone())
+        if let Some(new) = read.iter().find(|new| new.program.is_none()) {
+            let message = format!(
+                "{} has no [program]; accepted is one with a command",
+                new.name
+            );
+            return Err(ManifestError::new(new.place.clone(), &message));
+        }
+        Ok(Self::of_folder(read, usize::MAX, Some(&place)))
+    }
+
+    /// `codes` in the order of tables, each once; those whose manifests choose no mark get one in turn.
+    ///
+    /// # Errors
+    /// If two of them have the same name, by which tables tell them apart.
+    pub(crate) fn side_by_side(codes: &[Self]) -> Result<Vec<Self>, ManifestError> {
+        let mut beside: Vec<Self> = Vec::new();
+        let mut turn = 0;
+        for code in Self::distinct(codes) {
+            if beside.iter().any(|own| own.as_str() == code.as_str()) {
+                return Err(taken(code.definition()));
+            }
+            beside.push(Self(Arc::new(Described {
+                turn,
+                ..Described::clone(&code.0)
+            })));
+            turn += usize::from(code.mark().is_none());
+        }
+        Ok(beside)
+    }
+
+    /// The different ones among `codes`, in the order of tables.
+    pub(crate) fn distinct<'a>(codes: impl IntoIterator<Item = &'a Self>) -> Vec<Self> {
+        let codes: BTreeSet<&Self> = codes.into_iter().collect();
+        codes.into_iter().cloned().collect()
     }
 
     /// The code in `folder` that has the `name`; without a name the only one, or the one that is named like the
@@ -95,30 +150,30 @@ impl Code {
             Some(name) => code.as_str() == name,
             None => codes.len() == 1 || code.as_str() == code.definition().family,
         };
-        codes.iter().find(wanted).copied().ok_or_else(|| {
-            let names: Vec<&str> = codes.iter().map(|code| code.as_str()).collect();
+        codes.iter().find(wanted).cloned().ok_or_else(|| {
+            let names: Vec<&str> = codes.iter().map(Self::as_str).collect();
             let asked = name.unwrap_or("no name");
             let message = format!("{asked} is given; accepted is one of {}", names.join(", "));
             ManifestError::of_folder(folder, &message)
         })
     }
 
-    pub(super) fn definition(self) -> &'static Definition {
-        registry().definitions[self.0]
+    pub(super) fn definition(&self) -> &Definition {
+        &self.0.definition
     }
 
     /// The name on the command line and in tables.
-    pub fn as_str(self) -> &'static str {
+    pub fn as_str(&self) -> &str {
         &self.definition().name
     }
 
     /// The name in prose, which the variants of a folder share.
-    pub fn title(self) -> &'static str {
+    pub fn title(&self) -> &str {
         &self.definition().title
     }
 
     /// The name in figures.
-    pub fn label(self) -> String {
+    pub fn label(&self) -> String {
         let Definition { title, label, .. } = self.definition();
         match label {
             Some(label) => format!("{title}, {label}"),
@@ -127,53 +182,51 @@ impl Code {
     }
 
     /// The program, which its versions and styles share.
-    pub fn software(self) -> &'static str {
+    pub fn software(&self) -> &str {
         &self.definition().software
     }
 
     /// The contact style, the same in all versions of the program.
-    pub fn style(self) -> &'static str {
+    pub fn style(&self) -> &str {
         &self.definition().style
     }
 
     /// The mark in figures, if the manifest chooses one.
-    pub fn mark(self) -> Option<Mark> {
+    pub fn mark(&self) -> Option<Mark> {
         self.definition().mark
     }
 
-    /// The variants of the folder that come before this one.
-    fn earlier_variants(self) -> impl Iterator<Item = Self> {
-        let family = &self.definition().family;
-        let earlier = (0..self.0).map(Self);
-        earlier.filter(move |code| code.definition().family == *family)
+    /// Its turn among the codes of a command whose manifests choose no mark.
+    pub(crate) fn turn(&self) -> usize {
+        self.0.turn
     }
 
     /// Whether it is the first variant of its folder, which stands for the others where one is enough.
-    pub fn is_first_variant(self) -> bool {
-        self.earlier_variants().next().is_none()
+    pub fn is_first_variant(&self) -> bool {
+        self.0.earlier.is_empty()
     }
 
     /// Whether an earlier variant of its folder declares the same contacts.
-    pub(crate) fn repeats_another(self) -> bool {
+    pub(crate) fn repeats_another(&self) -> bool {
         let own = self.as_declared();
         own.is_some_and(|own| {
-            let mut declared = self.earlier_variants().filter_map(Self::as_declared);
+            let mut declared = self.0.earlier.iter().filter_map(Self::as_declared);
             declared.any(|earlier| earlier.convention() == own.convention())
         })
     }
 
     /// Its contact law, which every manifest declares; native, which accepts any, has the paper's as its default.
-    pub fn law(self) -> Law {
+    pub fn law(&self) -> Law {
         self.definition().convention.law
     }
 
     /// Properties of its time integration, of which the velocity lag may be left out ([`Self::declaration`]).
-    pub(crate) fn integration(self) -> Integration {
+    pub(crate) fn integration(&self) -> Integration {
         self.definition().integration
     }
 
     /// The properties that its manifest declares.
-    pub fn declaration(self) -> Declaration {
+    pub fn declaration(&self) -> Declaration {
         let definition = self.definition();
         Declaration {
             convention: definition.convention,
@@ -184,20 +237,18 @@ impl Code {
     }
 
     /// Whether its folder is part of this program.
-    pub(crate) fn is_built_in(self) -> bool {
-        let registry = registry();
-        let mut of_users = registry.folders.values().flatten();
-        !of_users.any(|own| *own == self)
+    pub(crate) fn is_built_in(&self) -> bool {
+        self.0.folder.is_none()
     }
 
     /// Whether the convention is part of the case rather than of the code.
-    pub(crate) fn accepts_any_convention(self) -> bool {
-        self == Self::NATIVE
+    pub(crate) fn accepts_any_convention(&self) -> bool {
+        self.is_native()
     }
 
     /// Refuses a convention that contradicts the declaration of the code. The keys that its manifest leaves out may be
     /// anything, and the restitution is a parameter of every code.
-    pub(crate) fn check_declared(self, asked: &ContactConvention) -> Result<(), InvalidValue> {
+    pub(crate) fn check_declared(&self, asked: &ContactConvention) -> Result<(), InvalidValue> {
         if self.accepts_any_convention() {
             return Ok(());
         }
@@ -220,7 +271,7 @@ impl Code {
 
     /// Refuses a convention that is not the code's `own`.
     pub(super) fn refuse_difference(
-        self,
+        &self,
         asked: &ContactConvention,
         own: &ContactConvention,
     ) -> Result<(), InvalidValue> {
@@ -231,7 +282,7 @@ impl Code {
     }
 
     /// Refuses a stiffness ratio that the code cannot have.
-    pub(crate) fn check_stiffness_ratio(self, asked: f64) -> Result<(), InvalidValue> {
+    pub(crate) fn check_stiffness_ratio(&self, asked: f64) -> Result<(), InvalidValue> {
         let limits = &self.definition().refused.stiffness_ratio;
         let refusal = limits
             .as_ref()
@@ -246,7 +297,7 @@ impl Code {
 
     /// Refuses a preparation for which the code has no deck.
     pub(crate) fn check_preparation(
-        self,
+        &self,
         stack: &Stack,
         asked: &Preparation,
     ) -> Result<(), InvalidValue> {
@@ -254,17 +305,17 @@ impl Code {
     }
 
     /// Whether it has a deck for pyramids.
-    pub fn builds_pyramids(self) -> bool {
+    pub fn builds_pyramids(&self) -> bool {
         self.definition().runs(TaskKind::Pyramid)
     }
 
     /// Whether it has a deck for stacks of spheres.
-    pub fn stacks_spheres(self) -> bool {
+    pub fn stacks_spheres(&self) -> bool {
         self.definition().runs(TaskKind::Spheres)
     }
 
     /// Refuses a kind of task for which the code has no deck.
-    pub(crate) fn check_task(self, kind: TaskKind) -> Result<(), InvalidValue> {
+    pub(crate) fn check_task(&self, kind: TaskKind) -> Result<(), InvalidValue> {
         if self.definition().runs(kind) {
             return Ok(());
         }
@@ -273,8 +324,8 @@ impl Code {
             return Err(refused("protocol.preparation.kind", "side-walls", accepted));
         }
         let runs = |code: &Self| code.definition().runs(kind);
-        let able = Self::all().into_iter().filter(runs).map(Self::as_str);
-        let able: Vec<&str> = able.collect();
+        let able = BUILT_IN_CODES.iter().filter(|code| runs(code));
+        let able: Vec<&str> = able.map(Self::as_str).collect();
         let task = match kind {
             TaskKind::Pyramid => "a pyramid",
             TaskKind::Spheres => "a stack of spheres",
@@ -286,12 +337,12 @@ impl Code {
     }
 
     /// Whether it can shorten runs.
-    pub(crate) fn takes_shortcuts(self) -> bool {
-        self == Self::NATIVE
+    pub(crate) fn takes_shortcuts(&self) -> bool {
+        self.is_native()
     }
 
     /// Refuses shortcuts, if they are `asked` for, of a code that has none.
-    pub(crate) fn check_shortcuts(self, asked: bool) -> Result<(), InvalidValue> {
+    pub(crate) fn check_shortcuts(&self, asked: bool) -> Result<(), InvalidValue> {
         if !asked || self.takes_shortcuts() {
             return Ok(());
         }
@@ -300,43 +351,40 @@ impl Code {
     }
 
     /// Hash of the files for a task of this kind, or of the sources of the native code.
-    pub fn files_hash(self, kind: TaskKind) -> String {
-        match self {
-            Self::NATIVE => crate::dem::SOURCE_DIGEST.to_owned(),
-            _ => self.definition().files_hash(kind),
+    pub fn files_hash(&self, kind: TaskKind) -> String {
+        match self.is_native() {
+            true => crate::dem::SOURCE_DIGEST.to_owned(),
+            false => self.definition().files_hash(kind),
         }
     }
 
     /// Duration of a step of the stack in seconds, about: for forecasts of the time that is left.
-    pub(crate) fn seconds_per_step(self) -> f64 {
+    pub(crate) fn seconds_per_step(&self) -> f64 {
         self.definition().seconds.step
     }
 
     /// Duration of a start in seconds, about.
-    pub(crate) fn start_seconds(self) -> f64 {
+    pub(crate) fn start_seconds(&self) -> f64 {
         self.definition().seconds.start
     }
 
     /// Time after which a run of `steps` steps counts as hanging.
-    pub(crate) fn time_limit(self, steps: u64) -> Duration {
+    pub(crate) fn time_limit(&self, steps: u64) -> Duration {
         self.definition().time_limit(steps)
     }
 
     /// The folder that it was read from; `None` for the built-in codes.
-    pub(crate) fn folder(self) -> Option<PathBuf> {
-        let registry = registry();
-        let mut folders = registry.folders.iter();
-        let own = folders.find(|(_, codes)| codes.contains(&self));
-        own.map(|(folder, _)| folder.clone())
+    pub(crate) fn folder(&self) -> Option<&Path> {
+        self.0.folder.as_deref()
     }
 
     /// Whether an external program computes.
-    pub(crate) fn has_program(self) -> bool {
+    pub(crate) fn has_program(&self) -> bool {
         self.definition().program.is_some()
     }
 
     /// Instructions for installing it; without any, where its program is looked for.
-    pub(crate) fn installation_hint(self) -> String {
+    pub(crate) fn installation_hint(&self) -> String {
         let definition = self.definition();
         if !definition.install.is_empty() {
             return definition.install.clone();
@@ -348,7 +396,7 @@ impl Code {
     }
 
     /// The places in which its program is looked for, in words.
-    pub(crate) fn places(self) -> String {
+    pub(crate) fn places(&self) -> String {
         let program = self.definition().program.iter();
         let directories = program.flat_map(|program| &program.search);
         let places = directories.map(|place| match place.get_ref().as_str() {
@@ -363,27 +411,45 @@ impl Code {
     }
 }
 
-impl Registry {
-    /// Adds the codes of a folder, whose names must be new.
-    fn add(&mut self, read: Vec<Definition>) -> Result<Vec<Code>, ManifestError> {
-        let is_taken = |new: &&Definition| self.definitions.iter().any(|own| own.name == new.name);
-        if let Some(new) = read.iter().find(is_taken) {
-            let message = format!(
-                "`name` is {}; accepted is a name that no other code has",
-                new.name
-            );
-            return Err(ManifestError::new(new.place.clone(), &message));
-        }
-        if let Some(new) = read.iter().find(|new| new.program.is_none()) {
-            let message = format!(
-                "{} has no [program]; accepted is one with a command",
-                new.name
-            );
-            return Err(ManifestError::new(new.place.clone(), &message));
-        }
-        let first = self.definitions.len();
-        self.definitions.extend(read.into_iter().map(leaked));
-        Ok((first..self.definitions.len()).map(Code).collect())
+/// Why the name of `definition` is refused.
+fn taken(definition: &Definition) -> ManifestError {
+    let message = format!(
+        "`name` is {}; accepted is a name that no other code has",
+        definition.name
+    );
+    ManifestError::new(definition.place.clone(), &message)
+}
+
+impl Code {
+    /// What tells it from every other code, in the order of tables.
+    fn key(&self) -> (usize, &str, Option<&Path>) {
+        (self.0.place, self.as_str(), self.folder())
+    }
+}
+
+impl PartialEq for Code {
+    fn eq(&self, other: &Self) -> bool {
+        self.key() == other.key()
+    }
+}
+
+impl Eq for Code {}
+
+impl PartialOrd for Code {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl Ord for Code {
+    fn cmp(&self, other: &Self) -> Ordering {
+        self.key().cmp(&other.key())
+    }
+}
+
+impl Hash for Code {
+    fn hash<H: Hasher>(&self, state: &mut H) {
+        self.key().hash(state);
     }
 }
 
@@ -402,16 +468,5 @@ impl std::fmt::Debug for Code {
 impl Serialize for Code {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         serializer.serialize_str(self.as_str())
-    }
-}
-
-impl<'de> Deserialize<'de> for Code {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        let name = String::deserialize(deserializer)?;
-        Self::named(&name).ok_or_else(|| {
-            let names: Vec<&str> = Self::all().into_iter().map(Self::as_str).collect();
-            let accepted = names.join(", ");
-            serde::de::Error::custom(format!("`{name}` is no code; accepted are {accepted}"))
-        })
     }
 }

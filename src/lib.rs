@@ -1,12 +1,9 @@
 //! A validation harness for DEM codes: the yield force of a three-cylinder stack (arXiv:2511.06807).
 
 pub mod cli;
-pub mod code;
-pub mod files;
 pub mod output;
 pub mod paper;
-pub mod runs;
-pub mod study;
 
 pub use tristack_dem::{dem, model, series};
+pub use tristack_harness::{code, files, runs, study};
 pub use tristack_theory::{experiment, theory};

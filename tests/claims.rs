@@ -364,8 +364,7 @@ fn native_reproduction() -> Reproduction {
         interrupt: &interrupt,
     };
     let native = [SelectedCode::find(Code::native())];
-    let all = Code::of_power(Power::Linear).into_iter();
-    let declared: Vec<SettledCode> = all.filter_map(|code| code.as_declared()).collect();
+    let declared = SettledCode::of_power(Power::Linear);
     let names = [SettledCode::native()];
     let stacks = [0.12, 0.25, CRITICAL_FRICTION, 0.3, 0.5]
         .iter()

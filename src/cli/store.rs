@@ -8,8 +8,8 @@ use crate::output::{entry_text, size, stored, stored_entries, stored_files};
 use crate::runs::{
     CodesOfToday, Content, EntryKind, Selection, StoredEntry, StoredFile, contents, oldest_beyond,
 };
-use clap::builder::PossibleValue;
-use clap::{ArgGroup, Args, Subcommand, ValueEnum};
+use clap::builder::{PossibleValuesParser, TypedValueParser};
+use clap::{ArgGroup, Args, Subcommand};
 use std::path::{Path, PathBuf};
 use std::time::SystemTime;
 
@@ -90,7 +90,7 @@ struct PruneArguments {
 #[derive(Debug, Args)]
 struct Choice {
     /// Entries of these kinds, separated by commas
-    #[arg(long, value_enum, value_delimiter = ',', value_name = "K1,K2")]
+    #[arg(long, value_parser = kinds(), value_delimiter = ',', value_name = "K1,K2")]
     kind: Vec<EntryKind>,
     /// Entries of these codes, separated by commas
     #[arg(long, value_delimiter = ',', value_name = "C1,C2")]
@@ -104,14 +104,14 @@ struct Choice {
     outdated: bool,
 }
 
-impl ValueEnum for EntryKind {
-    fn value_variants<'a>() -> &'a [Self] {
-        &Self::ALL
-    }
-
-    fn to_possible_value(&self) -> Option<PossibleValue> {
-        Some(PossibleValue::new(self.as_str()))
-    }
+/// Parses the name of a kind of entries.
+fn kinds() -> impl TypedValueParser<Value = EntryKind> {
+    let named = |name: String| {
+        let mut all = EntryKind::ALL.into_iter();
+        all.find(|kind| kind.as_str() == name)
+            .expect("the parser accepts names of kinds alone")
+    };
+    PossibleValuesParser::new(EntryKind::ALL.map(EntryKind::as_str)).map(named)
 }
 
 impl Choice {

@@ -2,7 +2,7 @@
 
 use super::style::{Mark, PUBLISHED_CURVE};
 use super::*;
-use crate::code::{Code, Interrupt, SettledCode};
+use crate::code::{Code, Interrupt};
 use crate::files::write_atomically;
 use crate::model::{HistoryUpdate, Power, Stack};
 use crate::paper::published::{
@@ -21,7 +21,7 @@ use crate::theory::RegimeMap;
 const FRICTIONS: [f64; 4] = [0.1, 0.2, 0.3, 0.5];
 
 fn judgement(code: Code, mu: f64, yield_force: Option<f64>) -> Judgement {
-    let settled = SettledCode::named(code.as_str());
+    let settled = code.as_declared().unwrap();
     let mut study = plan(&settled, &Stack::paper(mu, 100.0), settled.convention());
     study.limit.yield_force = Some(4.0);
     study.model_form = Some(-0.01);
@@ -123,7 +123,7 @@ fn curves() -> Curves {
         over_stiffness: [1e1, 1e3].map(|stiffness| point(0.3, stiffness)).into(),
         model_form: Vec::new(),
         codes_by_limit: ["liggghts", "lammps"]
-            .map(|name| vec![SettledCode::named(name)])
+            .map(|name| vec![Code::named(name).unwrap().as_declared().unwrap()])
             .into(),
     }
 }

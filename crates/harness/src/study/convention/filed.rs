@@ -1,0 +1,191 @@
+//! A passport as its file has it.
+
+use super::passport::PASSPORT;
+use crate::code::Identity;
+use crate::model::sha256_hex;
+use crate::study::Verdict;
+use serde::{Deserialize, Deserializer};
+use thiserror::Error;
+
+/// Digits of the digest in a name.
+const DIGEST_DIGITS: usize = 8;
+
+/// A passport, read. The fields are described by `tristack schema passport`.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+pub struct FiledPassport {
+    /// The command that made it.
+    pub command: String,
+    /// Name of the code.
+    pub code: String,
+    /// Its name in prose.
+    pub title: String,
+    /// The program, which its versions and styles share; the title in a passport of before it was written down.
+    #[serde(default)]
+    pub software: String,
+    /// The contact style, the same in all versions.
+    #[serde(default)]
+    pub style: String,
+    /// How to install the program.
+    #[serde(default)]
+    pub install: String,
+    /// The worst verdict on a property.
+    pub verdict: Verdict,
+    /// The program that was probed.
+    pub program: Identity,
+    /// Version of tristack.
+    pub tristack: String,
+    /// Date of the probe, UTC.
+    pub date: String,
+    /// Processor and system.
+    pub machine: String,
+    /// What it leaves open.
+    pub reservations: Vec<String>,
+    /// What its contacts do otherwise in long steps than in short ones.
+    pub time_step_effects: Vec<String>,
+    /// The keys of its convention, as measured.
+    #[serde(deserialize_with = "rows")]
+    pub convention: Vec<KeyRow>,
+    /// What its arms change in the yield forces of three stacks.
+    #[serde(deserialize_with = "rows")]
+    pub arm_effects: Vec<ArmEffect>,
+    /// Everything that was measured.
+    #[serde(deserialize_with = "rows")]
+    pub properties: Vec<PropertyRow>,
+}
+
+/// A key of the convention.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+pub struct KeyRow {
+    /// The key, as in a manifest.
+    pub key: String,
+    /// Its value as measured; absent where the motions do not show it.
+    pub measured: Option<String>,
+    /// The uncertainty of a number.
+    pub uncertainty: Option<f64>,
+    /// Its value in the manifest.
+    pub declared: Option<String>,
+    /// Whether it moves the quasi-static limit.
+    pub moves_limit: bool,
+    /// Whether it is as declared.
+    pub verdict: Verdict,
+}
+
+/// The exact yield force of a stack under the measured arms.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+pub struct ArmEffect {
+    /// k_n r/(m g).
+    pub stiffness: f64,
+    /// Friction of the floor.
+    pub mu: f64,
+    /// k_t/k_n.
+    pub kappa: f64,
+    /// The force with the paper's arms, in m g.
+    pub paper_force: Option<f64>,
+    /// The force with the arms of the code, in m g.
+    pub force: Option<f64>,
+    /// What the uncertainty of the arms leaves open of it, in m g.
+    pub uncertainty: Option<f64>,
+}
+
+/// A property of the contacts.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+pub struct PropertyRow {
+    /// Its name.
+    pub property: String,
+    /// As measured; absent if that failed.
+    pub measured: Option<f64>,
+    /// Three standard errors.
+    pub uncertainty: Option<f64>,
+    /// As declared or asked for.
+    pub declared: Option<f64>,
+    /// Whether both agree.
+    pub verdict: Verdict,
+}
+
+/// Why a file is no passport.
+#[derive(Debug, Error)]
+pub enum UnreadablePassport {
+    /// It is no JSON, or lacks keys of a passport.
+    #[error(transparent)]
+    Malformed(#[from] serde_json::Error),
+    /// It is something else.
+    #[error("`schema` is `{0}`; accepted is {PASSPORT}, as tristack probe --out writes it")]
+    OtherSchema(String),
+}
+
+impl FiledPassport {
+    /// The passport with this JSON `text`.
+    ///
+    /// # Errors
+    /// If it is no passport.
+    pub fn read(text: &[u8]) -> Result<Self, UnreadablePassport> {
+        let schema = schema_of(text)?;
+        if schema != PASSPORT {
+            return Err(UnreadablePassport::OtherSchema(schema));
+        }
+        let mut passport: Self = serde_json::from_slice(text)?;
+        if passport.software.is_empty() {
+            passport.software.clone_from(&passport.title);
+        }
+        if passport.style.is_empty() {
+            passport.style.clone_from(&passport.code);
+        }
+        Ok(passport)
+    }
+
+    /// The measured convention of a `key`.
+    pub fn key(&self, key: &str) -> Option<&KeyRow> {
+        self.convention.iter().find(|row| row.key == key)
+    }
+
+    /// What was measured of a `property`.
+    pub fn property(&self, property: &str) -> Option<&PropertyRow> {
+        self.properties.iter().find(|row| row.property == property)
+    }
+}
+
+impl KeyRow {
+    /// The measured number and its uncertainty.
+    pub fn number(&self) -> Option<(f64, f64)> {
+        let value = self.measured.as_ref()?.parse().ok()?;
+        Some((value, self.uncertainty?))
+    }
+}
+
+/// The name of the format of a JSON document.
+pub(crate) fn schema_of(text: &[u8]) -> Result<String, serde_json::Error> {
+    #[derive(Deserialize)]
+    struct Named {
+        schema: String,
+    }
+    serde_json::from_slice::<Named>(text).map(|named| named.schema)
+}
+
+/// The rows of a table.
+fn rows<'de, D: Deserializer<'de>, T: Deserialize<'de>>(input: D) -> Result<Vec<T>, D::Error> {
+    #[derive(Deserialize)]
+    struct Table<T> {
+        rows: Vec<T>,
+    }
+    Table::deserialize(input).map(|table| table.rows)
+}
+
+/// The name of a passport with this JSON `text` for ever: program, version, style, and the first digits of its SHA-256.
+pub fn permanent_name(passport: &FiledPassport, text: &[u8]) -> String {
+    let digest = sha256_hex(text);
+    let parts = [
+        &passport.software,
+        &passport.program.version,
+        &passport.style,
+    ];
+    let parts = parts.map(|part| plain(part));
+    format!("{}_{}", parts.join("_"), &digest[..DIGEST_DIGITS])
+}
+
+/// `text` in lower-case letters, digits and points, with a hyphen for everything between them.
+pub fn plain(text: &str) -> String {
+    let lower = text.to_lowercase();
+    let words = lower.split(|char: char| !(char.is_ascii_alphanumeric() || char == '.'));
+    let words: Vec<&str> = words.filter(|word| !word.is_empty()).collect();
+    words.join("-")
+}

@@ -1,0 +1,386 @@
+//! The conventions of the codes, measured before anything is judged by them.
+
+use super::finding::Finding;
+use super::micro_tests::MicroTests;
+use super::probe::probe;
+use super::settled::settled;
+use crate::code::{Code, ConventionKey, Declaration, Identity, Provenance, Settled, TaskKind};
+use crate::runs::{ProbeRecord, Progress, RunError, SelectedCode, Settings, Workload, read_all};
+use crate::series::ENOUGH_DIGITS;
+use crate::study::Verdict;
+use thiserror::Error;
+
+/// Why a convention has not been measured.
+#[derive(Debug, Error)]
+pub enum ProbeError {
+    /// The code failed, or it is not installed and no recorded probe stands in.
+    #[error(transparent)]
+    Unanswered(#[from] RunError),
+    /// The recorded answers are those to other questions.
+    #[error(
+        "the recorded probe of {0} answers other micro-tests than today's; refresh it with: tristack record --codes {0}"
+    )]
+    Outdated(Code),
+    /// The manifest has no micro-tests.
+    #[error("`tasks.motion` is absent from its manifest{}", not_stated(.0))]
+    NoMicroTests(Code),
+}
+
+/// The keys of its convention that are not stated either.
+fn not_stated(code: &Code) -> String {
+    let keys = code.declaration().left_out;
+    let keys: Vec<&str> = keys.into_iter().map(ConventionKey::as_str).collect();
+    match keys.len() {
+        0 => String::new(),
+        1 => format!(", and {} is not stated there", keys[0]),
+        _ => format!(", and not stated there are {}", keys.join(", ")),
+    }
+}
+
+impl ProbeError {
+    /// Whether nothing is wrong but that the user did not want to wait.
+    pub(crate) fn is_interrupted(&self) -> bool {
+        matches!(self, Self::Unanswered(error) if error.is_interrupted())
+    }
+}
+
+/// What was found out about a program.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Findings {
+    /// The origin of its answers.
+    pub provenance: Provenance,
+    /// Its properties.
+    pub findings: Vec<Finding>,
+    /// Its convention: as declared, and as measured where nothing is declared.
+    pub settled: Settled,
+    /// Its convention as measured, whatever is declared.
+    pub measured: Settled,
+    /// The digits with which it has printed the motions, if they are too few to contradict a declaration.
+    pub few_digits: Option<u32>,
+}
+
+/// The findings on one selected.
+pub type Probed = Result<Findings, ProbeError>;
+
+/// Probes `codes`, and returns the findings in their order.
+pub fn probe_all(
+    codes: &[SelectedCode],
+    settings: &Settings,
+    progress: &dyn Progress,
+) -> Vec<Probed> {
+    let records = answers(codes, settings, progress).into_iter();
+    let probed = codes.iter().zip(records).map(|(selected, record)| {
+        let code = &selected.name;
+        let missing = || ProbeError::NoMicroTests(code.clone());
+        read_probe(code, record.ok_or_else(missing)??)
+    });
+    probed.collect()
+}
+
+/// The answers of those of `codes` that have micro-tests: from the store, live, or recorded.
+pub fn probe_records(
+    codes: &[SelectedCode],
+    settings: &Settings,
+    progress: &dyn Progress,
+) -> Vec<Result<ProbeRecord, RunError>> {
+    let records = answers(codes, settings, progress);
+    records.into_iter().flatten().collect()
+}
+
+/// The answers of each of `codes`; `None` for one without micro-tests.
+fn answers(
+    codes: &[SelectedCode],
+    settings: &Settings,
+    progress: &dyn Progress,
+) -> Vec<Option<Result<ProbeRecord, RunError>>> {
+    let workloads = codes.iter().map(|selected| {
+        let code = selected.name.clone();
+        let able = code.check_task(TaskKind::Motion).is_ok();
+        let tasks = if able { vec![MicroTests] } else { Vec::new() };
+        Workload { code, tasks }
+    });
+    let workloads: Vec<Workload<MicroTests>> = workloads.collect();
+    let records = read_all(&workloads, codes, settings, progress);
+    records
+        .into_iter()
+        .map(|own| own.into_iter().next())
+        .collect()
+}
+
+/// What the answers of `code` to all micro-tests say.
+///
+/// # Errors
+/// If they are answers to other micro-tests than today's.
+pub fn read_probe(code: &Code, record: ProbeRecord) -> Probed {
+    let declaration = code.declaration();
+    let properties = probe(&declaration, |tests| {
+        record
+            .answer(tests)
+            .ok_or(ProbeError::Outdated(code.clone()))
+    })?;
+    let nothing = Declaration {
+        left_out: ConventionKey::ALL.into(),
+        ..declaration.clone()
+    };
+    let measured = settled(&nothing, &properties);
+    let settled = settled(&declaration, &properties);
+    let version = &record.provenance.identity.version;
+    let digits = record
+        .answers
+        .iter()
+        .map(|answer| answer.motion.most_digits());
+    // Some motions are so simple that their numbers are short.
+    let few_digits = digits.max().filter(|digits| *digits < ENOUGH_DIGITS);
+    let properties = properties.into_iter();
+    let findings = properties.map(|property| {
+        let finding = property.judge(code, version);
+        match few_digits {
+            Some(_) => undecided(finding),
+            None => finding,
+        }
+    });
+    Ok(Findings {
+        findings: findings.collect(),
+        settled,
+        measured,
+        provenance: record.provenance,
+        few_digits,
+    })
+}
+
+/// `finding` without a disagreement, which may be that of rounding.
+fn undecided(finding: Finding) -> Finding {
+    let verdict = match finding.verdict {
+        Verdict::Differs => Verdict::Inconclusive,
+        other => other,
+    };
+    Finding { verdict, ..finding }
+}
+
+/// Whether the declaration is known to be wrong: a property that could not be measured well enough says
+/// nothing.
+pub fn is_contradicted(probed: &Probed) -> bool {
+    let differs = |finding: &Finding| finding.verdict == Verdict::Differs;
+    probed
+        .as_ref()
+        .is_ok_and(|probe| probe.findings.iter().any(differs))
+}
+
+/// Whether every torque arm was measured and is as declared.
+pub fn arms_are_measured(probed: &Probed) -> bool {
+    let Ok(probe) = probed else {
+        return false;
+    };
+    let arms = probe.findings.iter();
+    let mut arms = arms.filter(|finding| finding.property.ends_with("_arm"));
+    arms.all(|finding| finding.verdict == Verdict::Agrees)
+}
+
+/// The first of the programs whose runs a probe of another program must not vouch for, if there is one.
+pub fn other_program<'a>(
+    probed: &Probed,
+    mut runs: impl Iterator<Item = &'a Identity>,
+) -> Option<String> {
+    let probe = &probed.as_ref().ok()?.provenance.identity;
+    let other = runs.find(|identity| *identity != probe)?;
+    let code = &probe.code;
+    Some(format!(
+        "its probe was made with another program ({}) than its runs ({}); refresh both with: tristack record \
+         --codes {code}",
+        described(probe),
+        described(other)
+    ))
+}
+
+/// A program in one line.
+fn described(identity: &Identity) -> String {
+    let package = identity.package.as_deref().unwrap_or("no package");
+    let hash = identity.program_hash.as_deref().unwrap_or("no program");
+    let hash = hash.get(..12).unwrap_or(hash);
+    format!("{} {}, {package}, {hash}", identity.code, identity.version)
+}
+
+/// The findings that are no agreement, one line each; what is unknown as well if the probe failed.
+pub fn contradictions(probed: &Probed) -> Vec<String> {
+    match probed {
+        Err(error) => vec![format!(
+            "its contact convention could not be measured: {error}"
+        )],
+        Ok(probe) => contradicting(probe),
+    }
+}
+
+/// The findings that are no agreement with what is declared, one line each.
+pub fn contradicting(probe: &Findings) -> Vec<String> {
+    let declared = probe.findings.iter().filter(|one| one.declared.is_some());
+    let mut contradicting: Vec<&Finding> = declared
+        .filter(|one| one.verdict != Verdict::Agrees)
+        .collect();
+    // A stiffness that grows explains the others.
+    contradicting.sort_by_key(|one| (one.verdict != Verdict::Differs, one.growth().is_none()));
+    let digits = probe.few_digits.map_or_else(String::new, |digits| {
+        format!(" (printed with {digits} digits)")
+    });
+    let line = |one: &Finding| format!("{}{digits}", contradiction(one));
+    contradicting.into_iter().map(line).collect()
+}
+
+fn contradiction(finding: &Finding) -> String {
+    let says = match finding.verdict {
+        Verdict::Differs => "contradicts its declaration",
+        _ => "decides nothing about its declaration",
+    };
+    if let Some(growth) = finding.growth() {
+        return format!("its probe {says}: {growth}");
+    }
+    let measured = finding.measured;
+    let measured = measured.map_or_else(|| "unknown".to_owned(), |value| format!("{value:.9}"));
+    let declared = finding.declared.unwrap_or(f64::NAN);
+    let property = &finding.property;
+    let because = finding.unknown_because();
+    let because = because.map_or_else(String::new, |because| format!(" ({because})"));
+    format!("its probe {says}: {property} is {measured}, declared {declared}{because}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::code::Provenance;
+    use crate::code::SettledCode;
+    use crate::dem::run_contact_test;
+    use crate::runs::Answer;
+    use crate::series::{Motion, MotionRow};
+
+    fn probed(verdicts: &[Verdict]) -> Probed {
+        let finding = |&verdict: &Verdict| Finding {
+            code: Code::named("yade").unwrap(),
+            version: String::new(),
+            property: verdict.to_string(),
+            key: None,
+            measured: Some(1.0),
+            uncertainty: Some(1.0),
+            declared: Some(1.0),
+            verdict,
+        };
+        let identity = Identity {
+            code: "yade".to_owned(),
+            version: "1".to_owned(),
+            package: None,
+            program_hash: None,
+            files_hash: None,
+            witness: None,
+        };
+        Ok(Findings {
+            provenance: Provenance::now(identity, String::new(), Vec::new(), 1, 1.0),
+            settled: SettledCode::native().settled().clone(),
+            measured: SettledCode::native().settled().clone(),
+            findings: verdicts.iter().map(finding).collect(),
+            few_digits: None,
+        })
+    }
+
+    #[test]
+    fn only_a_property_that_differs_contradicts() {
+        let unknown = probed(&[Verdict::Agrees, Verdict::Inconclusive]);
+        assert!(!is_contradicted(&unknown));
+        assert_eq!(contradictions(&unknown).len(), 1);
+        let wrong = probed(&[Verdict::Inconclusive, Verdict::Differs]);
+        assert!(is_contradicted(&wrong));
+        let first = &contradictions(&wrong)[0];
+        assert!(
+            first.contains("contradicts its declaration: differs"),
+            "{first}"
+        );
+        let of_arm = |verdict| {
+            let mut probed = probed(&[verdict]).unwrap();
+            probed.findings[0].property = "floor_torque_arm".to_owned();
+            arms_are_measured(&Ok(probed))
+        };
+        assert!(of_arm(Verdict::Agrees) && !of_arm(Verdict::Inconclusive));
+        assert!(!is_contradicted(&Err(ProbeError::Outdated(
+            Code::named("yade").unwrap()
+        ))));
+    }
+
+    #[test]
+    fn a_probe_vouches_for_runs_of_its_own_program_alone() {
+        let probed = probed(&[Verdict::Agrees]);
+        let own = probed.as_ref().unwrap().provenance.identity.clone();
+        assert_eq!(other_program(&probed, [&own, &own].into_iter()), None);
+        let newer = Identity {
+            program_hash: Some("00".to_owned()),
+            files_hash: None,
+            witness: None,
+            ..own.clone()
+        };
+        let note = other_program(&probed, [&own, &newer].into_iter()).unwrap();
+        assert!(note.contains("tristack record --codes yade"), "{note}");
+    }
+
+    /// A motion with every number rounded to so many digits.
+    fn rounded(motion: &Motion, decimals: usize) -> Motion {
+        let round = |row: &MotionRow| {
+            let mut row = serde_json::to_value(row).unwrap();
+            for (name, value) in row.as_object_mut().unwrap() {
+                if name != "step" && name != "space" {
+                    let text = format!("{:.decimals$e}", value.as_f64().unwrap());
+                    *value = text.parse::<f64>().unwrap().into();
+                }
+            }
+            serde_json::from_value(row).unwrap()
+        };
+        let rows: Vec<MotionRow> = motion.rows().iter().map(round).collect();
+        let steps = rows.len() as u64 - 1;
+        Motion::new(rows, steps).unwrap()
+    }
+
+    /// What is found of a code that is as declared, and prints so many digits.
+    fn probe_with_digits(digits: usize) -> Probed {
+        let code = Code::native();
+        let mut answers = Vec::new();
+        let properties = probe(&code.declaration(), |tests| {
+            let motions = tests.iter().map(|test| {
+                let motion = rounded(&run_contact_test(test).unwrap(), digits - 1);
+                answers.push(Answer {
+                    test: *test,
+                    input_hash: String::new(),
+                    motion: motion.clone(),
+                });
+                motion
+            });
+            Ok::<_, ProbeError>(motions.collect())
+        });
+        let judged = properties
+            .unwrap()
+            .into_iter()
+            .map(|own| own.judge(&code, ""));
+        let differing = judged.filter(|own| own.verdict == Verdict::Differs);
+        assert_eq!(
+            differing.count() > 0,
+            digits < 13,
+            "rounding shows in the properties"
+        );
+        let identity = Identity {
+            code: code.as_str().to_owned(),
+            ..Identity::native().clone()
+        };
+        let provenance = Provenance::now(identity, String::new(), Vec::new(), 1, 1.0);
+        read_probe(
+            &code,
+            ProbeRecord {
+                provenance,
+                answers,
+            },
+        )
+    }
+
+    #[test]
+    fn few_digits_contradict_nothing_and_are_named() {
+        let probed = probe_with_digits(6);
+        assert!(!is_contradicted(&probed));
+        let first = &contradictions(&probed)[0];
+        assert!(first.ends_with("(printed with 6 digits)"), "{first}");
+        let property = &probe_with_digits(17).unwrap();
+        assert_eq!(property.few_digits, None);
+    }
+}

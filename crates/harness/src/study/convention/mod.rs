@@ -1,0 +1,50 @@
+//! The contact convention of a code, measured by micro-tests of one contact each.
+//!
+//! The declaration of the code serves for comparison alone. Mass, inertia and the times of velocities follow from free
+//! motion; stiffness, damping and arms from linear regression of the reported forces on the reported motion. If the law
+//! is right, only rounding remains.
+
+mod beside;
+mod clock;
+mod contact_frame;
+mod cycle;
+mod experiments;
+mod filed;
+mod finding;
+mod growth;
+mod linear_form;
+mod measured;
+mod measured_arms;
+mod micro_tests;
+mod normal;
+mod passport;
+mod plan;
+mod power;
+mod probe;
+mod properties;
+mod regression;
+mod settle;
+mod settled;
+mod shape;
+mod sliding;
+mod space;
+mod spring_shape;
+mod tangential;
+
+pub(crate) use filed::schema_of;
+pub use filed::{
+    ArmEffect, FiledPassport, KeyRow, PropertyRow, UnreadablePassport, permanent_name, plain,
+};
+pub use finding::{Finding, TOLERANCE};
+pub use measured::{
+    Findings, ProbeError, Probed, contradictions, probe_all, probe_records, read_probe,
+};
+pub(crate) use measured::{arms_are_measured, is_contradicted, other_program};
+pub use measured_arms::{MeasuredArms, UnusablePassport};
+pub(crate) use micro_tests::ask;
+pub use passport::{ArmEffects, MeasuredKey, PASSPORT, Passport, passport, reservations};
+pub(crate) use probe::ROUNDS;
+pub use probe::probe;
+pub(crate) use regression::fit_rows;
+pub(crate) use settle::settled_by_files;
+pub use settle::{Settling, settle, settled_by};

@@ -1,0 +1,215 @@
+//! Campaigns whose runs are made elsewhere: the plan of them, in rounds where later runs depend on earlier results.
+
+use super::convention::{ROUNDS, probe, settled_by_files};
+use super::yield_force::{Measurement, Method, planned};
+use crate::code::{Code, FailureKind, PlannedRun, PreparedRun, ResultFiles, SettledCode, TaskKind};
+use crate::files::{FileError, Links, parse_json, read_bounded};
+use crate::model::{InvalidValue, Stack, exact};
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeSet;
+use std::io::ErrorKind;
+use std::path::{Path, PathBuf};
+
+/// The file that holds a plan.
+pub const PLAN: &str = "plan.json";
+const SCHEMA: &str = "tristack/plan/1";
+/// Largest plan that is read, in bytes: some hundred thousand runs.
+const LARGEST_PLAN: u64 = 1 << 28;
+
+/// A row of a crosscheck that is to be judged.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct PlannedRow {
+    /// The stack.
+    pub stack: Stack,
+    /// How its yield force is read.
+    pub method: Method,
+}
+
+/// Everything that one code is to run elsewhere.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Plan {
+    schema: String,
+    /// The command that made it.
+    pub command: String,
+    /// Version of tristack that made it.
+    pub tristack: String,
+    /// Name of the code.
+    pub code: String,
+    /// The folder that describes the code; absent for the codes that are part of tristack.
+    pub folder: Option<PathBuf>,
+    /// Version of the program, if it was installed where the plan was made.
+    pub version: Option<String>,
+    /// The rows that are to be judged.
+    pub rows: Vec<PlannedRow>,
+    /// Whether there are runs that can only be planned once the planned micro-tests have results: further micro-tests,
+    /// and the runs of a code that leaves something out of its convention.
+    pub continues: bool,
+    /// Steps of all runs.
+    pub steps: u64,
+    /// Duration of all runs on one core in seconds, by the forecast of the manifest.
+    pub seconds: f64,
+    /// The runs: the micro-tests first.
+    pub runs: Vec<PlannedRun>,
+}
+
+impl Plan {
+    /// Reads the plan in `directory`; `None` if there is none.
+    ///
+    /// # Errors
+    /// If there is one that this version cannot read.
+    pub fn read(directory: &Path) -> Result<Option<Self>, FileError> {
+        let path = directory.join(PLAN);
+        let content = match read_bounded(&path, LARGEST_PLAN, Links::Refused) {
+            Err(error) if error.kind() == ErrorKind::NotFound => return Ok(None),
+            content => content.map_err(FileError::reading(&path))?,
+        };
+        let plan: Self = parse_json(&content, &path)?;
+        if plan.schema != SCHEMA {
+            let message = format!("`schema` is {}; accepted is {SCHEMA}", plan.schema);
+            return Err(FileError::content(&path, message));
+        }
+        let checked = plan.check();
+        checked.map_err(|message| FileError::content(&path, message))?;
+        Ok(Some(plan))
+    }
+
+    /// Refuses what no plan says: somebody may have edited it.
+    fn check(&self) -> Result<(), String> {
+        for row in &self.rows {
+            row.stack.validate().map_err(|error| error.to_string())?;
+        }
+        self.runs.iter().try_for_each(PlannedRun::check)
+    }
+
+    /// Plans `rows` for `code`, whose results are expected below `root`, and reads the results that are there already:
+    /// the second round of micro-tests is planned by the first, and what is left out of the convention by both.
+    ///
+    /// # Errors
+    /// If the code cannot run a task.
+    pub fn new(
+        code: &Code,
+        rows: Vec<PlannedRow>,
+        root: &Path,
+        command: &str,
+        version: Option<String>,
+    ) -> Result<(Self, Vec<PreparedRun>), InvalidValue> {
+        let (mut prepared, further) = micro_tests(code, root)?;
+        let settled = code.as_declared().or_else(|| {
+            let runs: Vec<PlannedRun> = prepared.iter().map(|one| one.run.clone()).collect();
+            settled_by_files(&ResultFiles::new(code.clone(), "", root, &runs))
+        });
+        // Without micro-tests nothing will settle it.
+        let is_open = settled.is_none() && !prepared.is_empty();
+        if !is_open {
+            let settled = settled.unwrap_or_else(|| code.unmeasured("it has not been measured"));
+            for row in &rows {
+                prepared.extend(row.runs(&settled)?);
+            }
+        }
+        let mut known = BTreeSet::new();
+        prepared.retain(|one| known.insert(one.run.deck_hash.clone()));
+        let runs: Vec<PlannedRun> = prepared.iter().map(|one| one.run.clone()).collect();
+        let plan = Self {
+            schema: SCHEMA.to_owned(),
+            command: command.to_owned(),
+            tristack: env!("CARGO_PKG_VERSION").to_owned(),
+            code: code.as_str().to_owned(),
+            folder: code.folder().map(Path::to_owned),
+            version,
+            rows,
+            continues: further || is_open,
+            steps: runs.iter().map(|run| run.steps).sum(),
+            seconds: runs.iter().map(|run| run.seconds).sum(),
+            runs,
+        };
+        Ok((plan, prepared))
+    }
+
+    /// The measurements that the rows stand for, by `code`.
+    pub fn measurements(&self, code: &SettledCode) -> Vec<Measurement> {
+        let rows = self.rows.iter();
+        rows.map(|row| row.measurement(code)).collect()
+    }
+
+    /// The results of `code`, said to be of this `version`, below `root`.
+    pub fn results(&self, code: Code, version: &str, root: &Path) -> ResultFiles {
+        ResultFiles::new(code, version, root, &self.runs)
+    }
+
+    /// What is wrong with the result of each run; nothing where it is there and usable.
+    pub fn troubles(&self, code: &Code, root: &Path) -> Vec<Option<FailureKind>> {
+        let runs = self.runs.iter();
+        runs.map(|run| run.trouble(code, root)).collect()
+    }
+
+    /// What the program of the first run without a result says on standard error, if it says anything.
+    pub fn first_complaint(&self, troubles: &[Option<FailureKind>], root: &Path) -> Option<String> {
+        let mut runs = self.runs.iter().zip(troubles);
+        runs.find_map(|(run, trouble)| match trouble {
+            Some(FailureKind::Awaited(_)) => run.complaint(root),
+            _ => None,
+        })
+    }
+
+    /// Indented JSON with a final newline.
+    pub fn to_json(&self) -> String {
+        serde_json::to_string_pretty(self).expect("plain data has a JSON form") + "\n"
+    }
+}
+
+impl PlannedRow {
+    /// The row that `measurement` is.
+    pub fn of(measurement: &Measurement) -> Self {
+        Self {
+            stack: measurement.stack,
+            method: measurement.method,
+        }
+    }
+
+    fn measurement(&self, code: &SettledCode) -> Measurement {
+        let power = code.name().law().power;
+        let convention = code.stack_convention(power, self.stack.bodies);
+        planned(code, &self.stack, convention, self.method)
+    }
+
+    /// The runs of the row, in directories named after the stack, and the place of the run in its measurement.
+    fn runs(&self, code: &SettledCode) -> Result<Vec<PreparedRun>, InvalidValue> {
+        let (mu, stiffness) = (self.stack.floor_friction, self.stack.stiffness);
+        let (mu, stiffness) = (exact(mu), exact(stiffness));
+        let cases = self.measurement(code).cases;
+        let runs = (1..).zip(&cases).map(|(run, case)| {
+            let place = format!("runs/mu-{mu}-stiffness-{stiffness}/{run}");
+            code.name().prepare_elsewhere(case, &place)
+        });
+        runs.collect()
+    }
+}
+
+/// The micro-tests of all rounds that can be planned, and whether there are more: those of a round are planned by the
+/// results of the one before.
+fn micro_tests(code: &Code, root: &Path) -> Result<(Vec<PreparedRun>, bool), InvalidValue> {
+    if code.check_task(TaskKind::Motion).is_err() {
+        return Ok((Vec::new(), false));
+    }
+    let mut planned = Vec::new();
+    let mut round = 0;
+    let probed = probe(&code.declaration(), |tests| {
+        round += 1;
+        let mut motions = Vec::new();
+        for (index, test) in (1..).zip(tests) {
+            let place = format!("probe/{round}-{index:02}");
+            let prepared = code.prepare_elsewhere(test, &place).map_err(Some)?;
+            motions.push(prepared.run.outcome(code, test, root));
+            planned.push(prepared);
+        }
+        let motions: Result<_, _> = motions.into_iter().collect();
+        motions.map_err(|_| None)
+    });
+    match probed {
+        Err(Some(refusal)) => Err(refusal),
+        Err(None) => Ok((planned, round < ROUNDS)),
+        Ok(_) => Ok((planned, false)),
+    }
+}

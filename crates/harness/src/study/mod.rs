@@ -1,0 +1,26 @@
+//! Studies: each names the runs that it needs and evaluates them.
+//!
+//! [`Campaign`] does everything between the two for all of them: runs from the store, recorded runs, codes on
+//! all cores, contradicted conventions. [`Grounds`] derives the verdict on a row.
+
+pub mod atlas;
+pub mod check;
+pub mod convention;
+pub mod cost;
+mod elsewhere;
+pub mod impact;
+mod mechanics;
+mod pipeline;
+pub mod preparation;
+pub mod regimes;
+mod tolerance;
+pub mod trajectory;
+mod verdict;
+pub mod yield_force;
+
+pub use elsewhere::{PLAN, Plan, PlannedRow};
+pub use pipeline::{Campaign, Evaluation, Judged, Source, Study};
+pub(crate) use tolerance::ROUNDING;
+pub use tolerance::{MAX_TOLERANCE, MIN_TOLERANCE, tolerance};
+pub(crate) use verdict::Ground;
+pub use verdict::{Grounds, Verdict};

@@ -1,0 +1,344 @@
+//! The pipeline of every study: planned runs, carried out or recorded, evaluation, verdict.
+
+use super::convention::{
+    Probed, arms_are_measured, contradictions, is_contradicted, other_program, probe_all,
+    settled_by,
+};
+use super::verdict::{Ground, Grounds, Verdict};
+use crate::code::{Code, Identity, InstalledCode, SettledCode, Unknown};
+use crate::runs::{
+    Outlook, Progress, Reading, RunError, SelectedCode, Settings, Workload, outlook, read_all,
+};
+use serde::{Deserialize, Serialize};
+use std::sync::OnceLock;
+
+/// A study: the runs that it needs, and their evaluation.
+pub trait Study {
+    /// The part of each run that is kept.
+    type Reading: Reading;
+    /// The result of the runs.
+    type Finding;
+
+    /// The code that is judged, under the convention that the study holds it to.
+    fn code(&self) -> SettledCode;
+
+    /// Whether its result depends on what is `unknown` of the convention of the code.
+    fn depends_on(&self, _unknown: &Unknown) -> bool {
+        true
+    }
+
+    /// The tasks that the study needs to be carried out; those of the judged code come first.
+    fn workloads(&self) -> Vec<Workload<TaskOf<Self>>>;
+
+    /// Evaluates `runs`, which are complete and in the order of the workloads and their tasks.
+    fn evaluate(&self, runs: Vec<Vec<Self::Reading>>) -> Evaluation<Self::Finding>;
+}
+
+/// The task of a study.
+pub type TaskOf<S> = <<S as Study>::Reading as Reading>::Task;
+
+/// The evaluation of a study.
+pub struct Evaluation<F> {
+    /// The result of the runs.
+    pub finding: F,
+    /// The grounds for a verdict on it.
+    pub grounds: Grounds,
+}
+
+/// Whether the numbers of a row were computed now, or read from a recorded run or from files.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Source {
+    /// Run on this machine, now or earlier (from the store).
+    Live,
+    /// Read from the recorded runs, because the code is not installed.
+    Recorded,
+    /// Read from files that were made elsewhere after a plan.
+    Files,
+}
+
+impl Source {
+    /// The source of the runs of a code, which may be `installed`.
+    fn of(installed: Option<&dyn InstalledCode>) -> Self {
+        match installed {
+            None => Self::Recorded,
+            Some(code) if code.reads_files() => Self::Files,
+            Some(_) => Self::Live,
+        }
+    }
+
+    /// The word in tables.
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Self::Live => "live",
+            Self::Recorded => "recorded",
+            Self::Files => "files",
+        }
+    }
+}
+
+/// A study that has been carried out.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Judged<S, F> {
+    /// The study.
+    pub study: S,
+    /// The code that is judged.
+    pub code: Code,
+    /// Its version.
+    pub version: String,
+    /// Where its runs come from.
+    pub source: Source,
+    /// Whether the probe has measured its torque arms and found them as declared.
+    pub arms_are_measured: bool,
+    /// The result of the runs; `None` if one of them is missing.
+    pub finding: Option<F>,
+    /// The grounds for a verdict on it.
+    pub grounds: Grounds,
+}
+
+impl<S: Study> Judged<S, S::Finding> {
+    /// Withdraws a judgement that depends on a part of the convention which neither the manifest nor the probe says.
+    fn hold_to_settled(&mut self) {
+        for unknown in &self.study.code().settled().unknown {
+            if self.study.depends_on(unknown) {
+                let Unknown { key, because, .. } = unknown;
+                self.grounds.add(Ground::NotJudged {
+                    note: format!(
+                        "not judged: {key} is left out of its manifest and not known: {because}"
+                    ),
+                    contradicted: false,
+                });
+            }
+        }
+    }
+}
+
+impl<S, F> Judged<S, F> {
+    /// The verdict that follows from the grounds.
+    pub fn verdict(&self) -> Verdict {
+        self.grounds.verdict()
+    }
+
+    /// Whether it is based on recorded runs.
+    pub fn is_recorded(&self) -> bool {
+        self.source == Source::Recorded && self.verdict() != Verdict::Missing
+    }
+
+    /// Notes that explain the verdict.
+    pub fn notes(&self) -> Vec<&str> {
+        self.grounds.notes()
+    }
+
+    /// Why the verdict is not `agrees`, in one line.
+    pub fn reason(&self) -> String {
+        self.grounds.reason()
+    }
+}
+
+/// Carries out studies: the codes that take part, the runs that exist, and the conventions that were measured.
+pub struct Campaign<'a> {
+    codes: &'a [SelectedCode],
+    settings: &'a Settings<'a>,
+    progress: &'a dyn Progress,
+    probes: OnceLock<Vec<Probed>>,
+}
+
+impl<'a> Campaign<'a> {
+    /// A campaign with `codes`.
+    pub fn new(
+        codes: &'a [SelectedCode],
+        settings: &'a Settings<'a>,
+        progress: &'a dyn Progress,
+    ) -> Self {
+        Self {
+            codes,
+            settings,
+            progress,
+            probes: OnceLock::new(),
+        }
+    }
+
+    /// The codes that take part.
+    pub fn codes(&self) -> &'a [SelectedCode] {
+        self.codes
+    }
+
+    /// The names of the codes.
+    pub fn names(&self) -> Vec<Code> {
+        self.codes
+            .iter()
+            .map(|selected| selected.name.clone())
+            .collect()
+    }
+
+    /// The codes under their settled conventions, in their order: as declared, or where a manifest leaves something out, as
+    /// their probes show.
+    pub fn settled(&self) -> Vec<SettledCode> {
+        let codes = self.codes.iter().enumerate();
+        let settled = codes.map(|(place, selected)| {
+            let declared = selected.name.as_declared();
+            declared.unwrap_or_else(|| settled_by(&selected.name, &self.probes()[place]))
+        });
+        settled.collect()
+    }
+
+    /// How runs are carried out.
+    pub fn settings(&self) -> &'a Settings<'a> {
+        self.settings
+    }
+
+    /// The result of the probe of each code, in their order; measured once.
+    pub fn probes(&self) -> &[Probed] {
+        self.probes
+            .get_or_init(|| probe_all(self.codes, self.settings, self.progress))
+    }
+
+    /// The same by value.
+    pub fn into_probes(self) -> Vec<Probed> {
+        self.probes();
+        self.probes.into_inner().unwrap_or_default()
+    }
+
+    /// Carries out `workloads` and reads each result.
+    pub fn read<R: Reading>(
+        &self,
+        workloads: &[Workload<R::Task>],
+    ) -> Vec<Vec<Result<R, RunError>>> {
+        read_all(workloads, self.codes, self.settings, self.progress)
+    }
+
+    /// The same for workloads of the native code, which need not take part in the campaign.
+    pub fn read_native<R: Reading>(
+        &self,
+        workloads: &[Workload<R::Task>],
+    ) -> Vec<Vec<Result<R, RunError>>> {
+        let native = [SelectedCode::find(Code::native())];
+        read_all(workloads, &native, self.settings, self.progress)
+    }
+
+    /// Carries out `studies` and judges each, in order; those that an interrupt has cut short are left out.
+    pub fn carry_out<S: Study>(&self, studies: Vec<S>) -> Vec<Judged<S, S::Finding>> {
+        self.probes();
+        let workloads: Vec<Vec<Workload<TaskOf<S>>>> = studies.iter().map(S::workloads).collect();
+        let mut results = self.read(&workloads.concat()).into_iter();
+        let judged = studies.into_iter().zip(workloads).map(|(study, own)| {
+            let results = results.by_ref().take(own.len()).collect();
+            self.judge(study, results)
+        });
+        judged.flatten().collect()
+    }
+
+    /// What carrying out `studies` would do, beside the micro-tests.
+    pub fn outlook<S: Study>(&self, studies: &[S]) -> Outlook {
+        let workloads: Vec<Workload<TaskOf<S>>> = studies.iter().flat_map(S::workloads).collect();
+        outlook::<S::Reading>(&workloads, self.codes, self.settings)
+    }
+
+    fn judge<S: Study>(
+        &self,
+        study: S,
+        results: Vec<Vec<Result<S::Reading, RunError>>>,
+    ) -> Option<Judged<S, S::Finding>> {
+        let code = study.code().name().clone();
+        let place = self.codes.iter().position(|own| own.name == code);
+        let probed = place.and_then(|place| self.probes().get(place));
+        let unprobed = probed.and_then(|probed| probed.as_ref().err());
+        if errors(&results).any(RunError::is_interrupted)
+            || unprobed.is_some_and(|error| error.is_interrupted())
+        {
+            return None;
+        }
+        let installed = place.and_then(|place| self.codes[place].code.as_deref());
+        let identities = identities(results.first());
+        let mut judged = Judged {
+            version: versions(&identities, installed),
+            source: Source::of(installed),
+            arms_are_measured: probed.is_some_and(arms_are_measured),
+            study,
+            code,
+            finding: None,
+            grounds: Grounds::new(),
+        };
+        match complete(results) {
+            Ok(runs) => {
+                let evaluation = judged.study.evaluate(runs);
+                judged.finding = Some(evaluation.finding);
+                judged.grounds = evaluation.grounds;
+                // Where nothing yields in theory nothing is run, and there is no judgement to withdraw.
+                if let Some(probed) = probed.filter(|_| !identities.is_empty()) {
+                    judged.grounds.hold_to_probe(probed, &identities);
+                    if probed.is_ok() {
+                        judged.hold_to_settled();
+                    }
+                }
+            }
+            Err(missing) => {
+                judged.grounds = missing;
+                // What the probe has found is found, whatever the runs did.
+                if let Some(probed) = probed.filter(|probed| is_contradicted(probed)) {
+                    judged.grounds.hold_to_probe(probed, &identities);
+                }
+            }
+        }
+        Some(judged)
+    }
+}
+
+fn errors<R>(results: &[Vec<Result<R, RunError>>]) -> impl Iterator<Item = &RunError> {
+    let runs = results.iter().flatten();
+    runs.filter_map(|run| run.as_ref().err())
+}
+
+/// The programs that made the runs of the judged code.
+fn identities<R: Reading>(own: Option<&Vec<Result<R, RunError>>>) -> Vec<Identity> {
+    let runs = own
+        .into_iter()
+        .flatten()
+        .filter_map(|run| run.as_ref().ok());
+    runs.map(|run| run.identity().clone()).collect()
+}
+
+/// The version of the runs, all versions if there are several, or that of the `installed` code if there are no runs.
+fn versions(identities: &[Identity], installed: Option<&dyn InstalledCode>) -> String {
+    let mut versions: Vec<&str> = identities.iter().map(|own| own.version.as_str()).collect();
+    versions.dedup();
+    if let Some(code) = installed.filter(|_| versions.is_empty()) {
+        versions.push(&code.identity().version);
+    }
+    versions.join(", ")
+}
+
+/// All runs, or the reasons why some of them are missing.
+fn complete<R>(results: Vec<Vec<Result<R, RunError>>>) -> Result<Vec<Vec<R>>, Grounds> {
+    let mut grounds = Grounds::new();
+    for error in errors(&results) {
+        let note = error.to_string();
+        grounds.add(match error {
+            RunError::Failed(_) => Ground::Failed(note),
+            RunError::Missing(_) | RunError::Absent(_) => Ground::Missing(note),
+        });
+    }
+    let complete = results.into_iter().map(|own| own.into_iter().collect());
+    let complete: Result<_, RunError> = complete.collect();
+    complete.map_err(|_| grounds)
+}
+
+impl Grounds {
+    /// Withdraws a judgement whose reference belongs to a convention that the code does not have, or is not known to
+    /// have, according to `probed`. `identities` are the programs that made the runs.
+    fn hold_to_probe(&mut self, probed: &Probed, identities: &[Identity]) {
+        let mut contradictions = contradictions(probed);
+        contradictions.extend(other_program(probed, identities.iter()));
+        let Some(first) = contradictions.first() else {
+            return;
+        };
+        let further = match contradictions.len() {
+            1 => String::new(),
+            count => format!(" (and {} more: tristack probe)", count - 1),
+        };
+        self.add(Ground::NotJudged {
+            note: format!("not judged: {first}{further}"),
+            contradicted: is_contradicted(probed),
+        });
+    }
+}

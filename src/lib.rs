@@ -2,8 +2,8 @@
 
 pub mod cli;
 pub mod output;
-pub mod paper;
 
 pub use tristack_dem::{dem, model, series};
 pub use tristack_harness::{code, files, runs, study};
+pub use tristack_paper as paper;
 pub use tristack_theory::{experiment, theory};

@@ -1,0 +1,15 @@
+//! The authors' published data, the runs of their program that made them, and what of it does not fit together.
+
+mod checkout;
+mod contradictions;
+mod given;
+mod points;
+mod repetition;
+
+pub use checkout::{Checkout, DataFile, Printed, Subject};
+pub use contradictions::{Contradiction, Quotation};
+pub use given::{GivenCase, GivenOutcome};
+pub use points::{
+    ForceOrigin, PublishedForce, PublishedSeries, WALL_STARTS, published_forces, published_series,
+};
+pub use repetition::{ALIKE, Fit, Published, RepeatedForce, RepeatedSeries};

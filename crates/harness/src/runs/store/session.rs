@@ -465,13 +465,14 @@ mod tests {
     #[test]
     fn what_a_killed_program_leaves_of_its_session_goes() {
         let root = tempfile::tempdir().unwrap();
-        let [dead, left] = leftovers(root.path(), LockOwner::this_program());
+        let owner = LockOwner::this_program();
+        let [dead, left] = leftovers(root.path(), owner.clone());
         let whole = fs::read(&dead).unwrap();
-        let owner = Claims {
-            owner: LockOwner::this_program(),
+        let own = Claims {
+            owner,
             addresses: BTreeSet::new(),
         };
-        for length in owner.unchanging()..=whole.len() {
+        for length in own.unchanging()..=whole.len() {
             fs::write(&dead, &whole[..length]).unwrap();
             fs::create_dir_all(&left).unwrap();
             drop(begin(root.path()).unwrap());

@@ -1,6 +1,6 @@
 //! Steps of some four thousand cylinders in the plane, and of as many spheres in space: time of a step, bodies per second.
 
-#[path = "../tests/packing/heap.rs"]
+#[path = "../tests/physics/packing/heap.rs"]
 #[allow(dead_code)] // Tests use all of it.
 mod heap;
 

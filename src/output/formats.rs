@@ -17,7 +17,7 @@ use crate::series::{Column, MotionRow, Sample};
 const TOP: &str = "# Tables, results and parameters
 
 Made from the declarations in the source (`tristack::output::formats_page`); a test compares, and
-`TRISTACK_UPDATE_GOLDEN=1 cargo test --test formats` writes it anew.
+`TRISTACK_UPDATE_GOLDEN=1 cargo test --test documents formats` writes it anew.
 
 Every table has the same columns and the same numbers, with all their digits, in CSV and in JSON. A missing value is an
 empty field in CSV and `null` in JSON. Tables on a terminal, in Markdown, LaTeX and HTML show some of the columns, with

@@ -163,7 +163,7 @@ impl Folders {
         let door = DOORS[random.usize(..DOORS.len())];
         let is_asked = |stage: &&&str| match fault {
             F::LiesAboutItsVersion => **stage == "version" || door == Door::PlanAndJudge,
-            // tests/faults.rs waits for the answer to the question for a version.
+            // tests/codes/faults.rs waits for the answer to the question for a version.
             F::Hangs => **stage != "version",
             _ => true,
         };

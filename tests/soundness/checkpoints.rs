@@ -69,7 +69,7 @@ pub fn check(data: &[u8]) {
         0 => serde_json::from_slice(rest).ok(),
         _ => Some(changed(rest)),
     };
-    // A checkpoint that does not fit starts the run anew, which would take too long here; see tests/interruption.rs.
+    // A checkpoint that does not fit starts the run anew, which would take too long here; see tests/commands/interruption.rs.
     let late = |kept: &Checkpoint| kept.step >= KEPT.1.step;
     if let Some(checkpoint) = checkpoint.filter(|kept| kept.fits(&KEPT.0) && late(kept)) {
         let _ = resume(checkpoint);

@@ -1,7 +1,7 @@
 //! Reading files without ever waiting: regular ones alone, and no more than a given number of bytes.
 //!
 //! A named pipe without a writer, a terminal or a device would otherwise keep the program for ever. No other place in the
-//! program opens a file to read it (`tests/architecture.rs`).
+//! program opens a file to read it (`tests/documents/architecture.rs`).
 
 use nix::fcntl::OFlag;
 use std::fs::{self, File, Metadata, OpenOptions};

@@ -22,7 +22,7 @@ pub struct Budget {
     pub sampling: f64,
     /// Rounding of positions in every step, accumulated like a random walk, as the estimator of the force and
     /// the extrapolation amplify it. Contacts restore positions, so that twins of higher precision find ten
-    /// times less (tests/round_off.rs).
+    /// times less (tests/physics/round_off.rs).
     pub round_off: f64,
     /// Half a unit of the last digit that the code prints, amplified in the same way: the seventeenth, unless the
     /// series has fewer.

@@ -1,10 +1,11 @@
 //! The explanation of one row: every step from its runs to its verdict.
 
+use super::explained::{explained_runs, origin_of_arms};
 use super::number::{digits, friction, optional, relative, significant};
 use super::table::Columns;
-use crate::model::{Case, Preparation, exact};
+use crate::model::exact;
 use crate::runs::RunSummary;
-use crate::series::{Estimate, Law};
+use crate::series::Law;
 use crate::study::yield_force::{
     Budget, ConvergenceOrder, Evidence, Extrapolation, Judgement, Method, TwinForce,
 };
@@ -36,15 +37,6 @@ pub(crate) fn explanation(
         );
     }
     text
-}
-
-/// Where the arms come from under which the reference of `row` was computed.
-pub(super) fn origin_of_arms(row: &Judgement) -> &'static str {
-    match row.arms_are_measured {
-        _ if row.study.convention_uncertainty.is_some() => "measured, not declared",
-        true => "measured",
-        false => "declared",
-    }
 }
 
 fn reference(row: &Judgement) -> String {
@@ -87,34 +79,7 @@ fn reference(row: &Judgement) -> String {
 }
 
 fn runs(row: &Judgement) -> String {
-    let runs = row.study.cases.iter().zip(row.runs());
-    let runs = runs.enumerate();
-    let force =
-        |estimate: Option<Estimate>| optional(estimate, |estimate| significant(estimate.force, 11));
-    let table = Columns::<(usize, (&Case, &RunSummary))>::for_people()
-        .right("run", |(index, _)| (index + 1).to_string())
-        .right("wall speed", |(_, (case, _))| {
-            format!("{:.3e}", case.protocol.wall_speed)
-        })
-        .right("time step", |(_, (case, _))| {
-            case.protocol.time_step.to_string()
-        })
-        .right("ramp", |(_, (case, _))| match case.protocol.preparation {
-            Preparation::GravityRamp { ramp_time, .. } => ramp_time.to_string(),
-            Preparation::SideWalls(_) => "-".to_owned(),
-        })
-        .right("steps", |(_, (case, _))| case.total_steps().to_string())
-        .right("slip onset", |(_, (_, run))| force(run.estimates.slip))
-        .right("peak", |(_, (_, run))| force(run.estimates.peak))
-        .right("sampling", |(_, (_, run))| {
-            optional(run.estimates.slip, |slip| format!("{:.0e}", slip.sampling))
-        })
-        .right("amplified", |(_, (_, run))| {
-            optional(run.estimates.slip, |slip| {
-                format!("{:.0} x", slip.sensitivity)
-            })
-        })
-        .rows(runs);
+    let table = explained_runs(std::slice::from_ref(row));
     format!(
         "2. Runs: slip onset{} and peak{} of F = f/(m g), with the distance between interpolations of two\n   orders, and \
          how much an error of the forces is amplified where the onset is read.\n{}{}\n",

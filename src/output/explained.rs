@@ -1,6 +1,6 @@
 //! The explanation of one row for programs: the same steps as for people, as tables.
 
-use super::explain::origin_of_arms;
+use super::number::significant;
 use super::table::{Columns, DataTable};
 use super::{budget, crosscheck};
 use crate::model::{Case, Preparation};
@@ -14,6 +14,15 @@ type Row<'a> = (
     Option<&'a Result<TwinForce, String>>,
     Option<&'a str>,
 );
+
+/// Where the arms come from under which the reference of `row` was computed.
+pub(super) fn origin_of_arms(row: &Judgement) -> &'static str {
+    match row.arms_are_measured {
+        _ if row.study.convention_uncertainty.is_some() => "measured, not declared",
+        true => "measured",
+        false => "declared",
+    }
+}
 
 /// The row itself, its error budget, its runs, and what else stands behind its verdict.
 pub(crate) fn explained<'a>(
@@ -35,52 +44,62 @@ pub(crate) fn declared_explanations() -> [DataTable<'static>; 2] {
     [explained_runs(&[]), grounds([])]
 }
 
-fn explained_runs(judgements: &[Judgement]) -> DataTable<'_> {
+/// The runs behind the rows.
+pub(super) fn explained_runs(judgements: &[Judgement]) -> DataTable<'_> {
     let cases = judgements
         .iter()
-        .flat_map(|row| row.study.cases.iter().zip(row.runs()));
-    let mut columns = Columns::<(&Case, &RunSummary)>::new(
+        .flat_map(|row| row.study.cases.iter().zip(row.runs()).enumerate());
+    let mut columns = Columns::<(usize, (&Case, &RunSummary))>::new(
         "explained_runs",
         "A row is one of the runs behind a row of `crosscheck`.",
         "`tristack crosscheck --explain --format json`",
     )
-    .number("wall_speed", "r √(k_n/m)", |(case, _)| {
+    .right("run", |(index, _)| (index + 1).to_string())
+    .number("wall_speed", "r √(k_n/m)", |(_, (case, _))| {
         case.protocol.wall_speed
     })
     .means("speed of the top wall")
-    .number("time_step", "√(m/k_n)", |(case, _)| {
+    .shown_as("wall speed", |speed| format!("{speed:.3e}"))
+    .number("time_step", "√(m/k_n)", |(_, (case, _))| {
         case.protocol.time_step
     })
     .means("time step")
-    .number("ramp_time", "√(m/k_n)", |(case, _)| {
+    .shown("time step")
+    .number("ramp_time", "√(m/k_n)", |(_, (case, _))| {
         match case.protocol.preparation {
             Preparation::GravityRamp { ramp_time, .. } => Some(ramp_time),
             Preparation::SideWalls(_) => None,
         }
     })
     .means("duration of the gravity ramp; absent between side walls")
-    .number("steps", "1", |(case, _)| case.total_steps())
+    .shown("ramp")
+    .number("steps", "1", |(_, (case, _))| case.total_steps())
     .means("steps in all")
-    .number("slip_onset", "m g", |(_, run)| {
+    .shown("steps")
+    .number("slip_onset", "m g", |(_, (_, run))| {
         Some(run.estimates.slip?.force)
     })
     .means("F at which the floor begins to slip in this run")
-    .number("peak_force", "m g", |(_, run)| {
+    .shown_as("slip onset", |force| significant(force, 11))
+    .number("peak_force", "m g", |(_, (_, run))| {
         Some(run.estimates.peak?.force)
     })
     .means("the largest F in this run")
-    .number("sampling", "m g", |(_, run)| {
+    .shown_as("peak", |force| significant(force, 11))
+    .number("sampling", "m g", |(_, (_, run))| {
         Some(run.estimates.slip?.sampling)
     })
     .means("distance between the interpolations of two orders at the slip onset")
-    .number("amplification", "1", |(_, run)| {
+    .shown_as("sampling", |distance| format!("{distance:.0e}"))
+    .number("amplification", "1", |(_, (_, run))| {
         Some(run.estimates.slip?.sensitivity)
     })
-    .means("factor by which an error of the recorded forces is amplified in the slip onset");
+    .means("factor by which an error of the recorded forces is amplified in the slip onset")
+    .shown_as("amplified", |factor| format!("{factor:.0} x"));
     for law in Law::ALL {
         let (name, meaning) = named(law);
         columns = columns
-            .number(name, "1", move |(_, run)| {
+            .number(name, "1", move |(_, (_, run))| {
                 let deviation = run.mechanics.as_ref()?.0.get(&law)?;
                 Some(deviation.size / deviation.bound)
             })

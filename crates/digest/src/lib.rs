@@ -1,8 +1,8 @@
 //! Digest of everything that decides the numbers of a program, made when it is built.
 //!
-//! The digest covers the sources of some crates without comments, layout and tests, the packages that they compute with
-//! as Cargo.lock has them, and the compiler. No release number has a part in it, so that a release of unchanged sources
-//! keeps the runs of the one before.
+//! The digest covers the sources of some crates without comments, layout and tests, the packages that they compute
+//! with as Cargo.lock has them, and the compiler. No release number is part of it, so a release with unchanged
+//! sources keeps the runs of the one before.
 
 mod lock;
 mod tokens;
@@ -42,8 +42,8 @@ pub fn emit(below: &[&str]) {
     println!("cargo::rustc-env=SOURCE_DIGEST={digest}");
 }
 
-/// SHA-256, in hexadecimal, of what decides the numbers of `crates`, given as directories with Cargo.toml and `src`, when
-/// they are compiled by `compiler`.
+/// Returns the SHA-256, in hexadecimal, of what decides the numbers of `crates` when `compiler` compiles them. Each
+/// of the `crates` is a directory with Cargo.toml and `src`.
 ///
 /// # Errors
 /// If a file cannot be read, or is not Rust or TOML.
@@ -85,13 +85,14 @@ pub fn digest(crates: &[impl AsRef<Path>], compiler: &str) -> io::Result<String>
         .collect())
 }
 
-/// The compiler `rustc`, as `rustc -vV` names it, and the `target` that it compiles for.
+/// Names the compiler `rustc`, as `rustc -vV` does, and the `target` that it compiles for.
 ///
 /// # Panics
 /// If it does not say its version.
 pub fn compiler(rustc: impl AsRef<OsStr>, target: &str) -> String {
     let output = Command::new(rustc).arg("-vV").output();
-    let output = output.expect("the compiler says its version");
+    let output = output.expect("the compiler starts");
+    assert!(output.status.success(), "the compiler says its version");
     format!("{}{target}", String::from_utf8_lossy(&output.stdout))
 }
 
@@ -99,7 +100,7 @@ fn variable(name: &str) -> String {
     env::var(name).unwrap_or_else(|_| panic!("{name} is set for build scripts"))
 }
 
-/// All files below `directory`, sorted by their paths.
+/// Returns all files below `directory`, sorted by their paths.
 fn files(directory: &Path) -> io::Result<Vec<PathBuf>> {
     let mut found = Vec::new();
     for entry in fs::read_dir(directory)? {

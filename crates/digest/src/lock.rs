@@ -5,15 +5,16 @@ use std::path::{Path, PathBuf};
 use std::{fs, io};
 use toml::{Table, Value};
 
-/// The Cargo.lock in `directory` or the nearest directory above it.
+/// Returns the Cargo.lock in `directory` or the nearest directory above it.
 pub(super) fn nearest(directory: &Path) -> Option<PathBuf> {
     let locks = directory.ancestors().map(|above| above.join("Cargo.lock"));
     locks.into_iter().find(|lock| lock.is_file())
 }
 
-/// Name, version and checksum of every package from a registry that the crate in `directory` depends on, directly or by
-/// others, as the nearest Cargo.lock has them. Crates of the project have digests of their own; what is needed for tests
-/// and build scripts alone is left out. Without a Cargo.lock, the dependencies as Cargo.toml asks for them.
+/// Returns name, version and checksum of every package from a registry that the crate in `directory` depends on,
+/// directly or through others, as the nearest Cargo.lock has them. Crates of the project are left out, because they
+/// have digests of their own, and so is what only the crate's tests or build script need. Without a Cargo.lock,
+/// returns the dependencies as Cargo.toml asks for them.
 pub(super) fn packages(directory: &Path) -> io::Result<BTreeSet<String>> {
     let manifest = read(&directory.join("Cargo.toml"))?;
     let Some(asked) = manifest.get("dependencies").and_then(Value::as_table) else {
@@ -52,7 +53,7 @@ pub(super) fn packages(directory: &Path) -> io::Result<BTreeSet<String>> {
     Ok(found)
 }
 
-/// The name of a dependency in the registry, which Cargo.toml may give another.
+/// Returns the name of a dependency in the registry; Cargo.toml may rename it.
 fn real_name<'a>(name: &'a str, value: &'a Value) -> &'a str {
     value.get("package").and_then(Value::as_str).unwrap_or(name)
 }

@@ -5,8 +5,8 @@ use std::io;
 use std::iter::Peekable;
 use std::path::Path;
 
-/// The tokens of the source `content`, without comments, documentation and what only tests use, each after a blank;
-/// `None` for a file that only tests use.
+/// Returns the tokens of the source `content`, each after a blank, without comments, documentation and what only
+/// tests use; `None` for a file that only tests use.
 pub(super) fn deciding(content: &[u8], file: &Path) -> io::Result<Option<String>> {
     let invalid = |message: String| {
         let message = format!("{}: {message}", file.display());
@@ -22,7 +22,7 @@ pub(super) fn deciding(content: &[u8], file: &Path) -> io::Result<Option<String>
     Ok(Some(written))
 }
 
-/// Whether a file begins with `#![cfg(test)]`, after comments and documentation.
+/// Returns whether `#![cfg(test)]` is one of the attributes with which a file begins.
 fn is_for_tests(tokens: &TokenStream) -> bool {
     let mut tokens = tokens.clone().into_iter().peekable();
     while let Some(attribute) = inner_attribute(&mut tokens) {
@@ -35,7 +35,7 @@ fn is_for_tests(tokens: &TokenStream) -> bool {
 
 type Tokens = Peekable<proc_macro2::token_stream::IntoIter>;
 
-/// The next tokens if they are `#![...]`.
+/// Takes the next tokens if they are `#![...]`, and returns the brackets.
 fn inner_attribute(tokens: &mut Tokens) -> Option<Group> {
     tokens.next_if(|token| is_punct(token, '#'))?;
     tokens.next_if(|token| is_punct(token, '!'))?;
@@ -57,7 +57,8 @@ fn write(tokens: TokenStream, written: &mut String) {
             let inner = tokens.next_if(|token| is_punct(token, '!'));
             if let Some(attribute) = brackets(&mut tokens) {
                 match attribute {
-                    attribute if says_test(&attribute) => skip_item(&mut tokens),
+                    attribute
+                        if inner.is_none() && says_test(&attribute) && skip_item(&mut tokens) => {}
                     attribute if is_documentation(&attribute) => {}
                     attribute => {
                         written.push_str(if inner.is_some() { " # ! [" } else { " # [" });
@@ -93,24 +94,64 @@ fn write(tokens: TokenStream, written: &mut String) {
     }
 }
 
-/// Takes the item after an attribute: its other attributes, and all up to a block or a semicolon.
-fn skip_item(tokens: &mut Tokens) {
-    for token in tokens.by_ref() {
-        let ends = match &token {
-            TokenTree::Group(group) => group.delimiter() == Delimiter::Brace,
-            token => is_punct(token, ';'),
-        };
-        if ends {
-            return;
+/// Skips the item after an attribute, with its other attributes, and returns whether it is one. What only looks like an
+/// item, such as a field or a statement, has no end that is known here, and stays.
+fn skip_item(tokens: &mut Tokens) -> bool {
+    let mut ahead = tokens.clone();
+    while ahead.next_if(|token| is_punct(token, '#')).is_some() {
+        brackets(&mut ahead);
+    }
+    if ahead.next_if(|token| is_word(token, &["pub"])).is_some() {
+        ahead.next_if(|token| is_group(token, Delimiter::Parenthesis));
+    }
+    let Some(first) = ahead.next_if(|token| is_word(token, &ITEMS)) else {
+        return false;
+    };
+    let is_value = match ahead.peek() {
+        Some(second) => is_word(&first, &["const"]) && !is_word(second, &["fn", "unsafe", "async"]),
+        None => false,
+    };
+    let ends_in_semicolon = is_value || is_word(&first, &["use", "static", "type"]);
+    for token in ahead.by_ref() {
+        if is_punct(&token, ';') || !ends_in_semicolon && is_group(&token, Delimiter::Brace) {
+            break;
         }
     }
+    *tokens = ahead;
+    true
+}
+
+/// The words with which an item begins, after its visibility.
+const ITEMS: [&str; 14] = [
+    "async",
+    "const",
+    "enum",
+    "extern",
+    "fn",
+    "impl",
+    "macro_rules",
+    "mod",
+    "static",
+    "struct",
+    "trait",
+    "type",
+    "unsafe",
+    "use",
+];
+
+fn is_word(token: &TokenTree, words: &[&str]) -> bool {
+    matches!(token, TokenTree::Ident(ident) if words.iter().any(|word| ident == word))
+}
+
+fn is_group(token: &TokenTree, delimiter: Delimiter) -> bool {
+    matches!(token, TokenTree::Group(group) if group.delimiter() == delimiter)
 }
 
 fn is_punct(token: &TokenTree, char: char) -> bool {
     matches!(token, TokenTree::Punct(punct) if punct.as_char() == char)
 }
 
-/// Whether an attribute is `cfg(test)`, alone or as one of `all`.
+/// Returns whether an attribute is `cfg(test)`, alone or as the first of `all`.
 fn says_test(attribute: &Group) -> bool {
     let text: String = attribute.stream().to_string();
     let text: String = text.split_whitespace().collect();
@@ -138,6 +179,9 @@ mod tests {
             "//! A crate.\n\n/// Twice `x`.\npub fn f(\n    x: f64\n) -> f64 {\n    // Exact.\n    2.0 * x\n}\n",
             "pub fn f(x: f64) -> f64 { 2.0 * x }\n#[cfg(test)]\nmod tests { #[test] fn t() {} }",
             "#[cfg(test)]\nuse std::fmt;\npub fn f(x: f64) -> f64 { 2.0 * x }",
+            "#[cfg(test)]\nuse std::{fmt, io};\npub fn f(x: f64) -> f64 { 2.0 * x }",
+            "#[cfg(test)]\npub(super) const A: [u8; 1] = { [1] };\npub fn f(x: f64) -> f64 { 2.0 * x }",
+            "#[cfg(test)]\nconst fn a() {}\npub fn f(x: f64) -> f64 { 2.0 * x }",
             "#[cfg(all(test, unix))]\n#[allow(unused)]\nfn t(a: [u8; 3]) {}\npub fn f(x: f64) -> f64 { 2.0 * x }",
         ] {
             assert_eq!(of(same), plain, "{same}");
@@ -154,6 +198,27 @@ mod tests {
             "#[inline]\npub fn f(x: f64) -> f64 { 2.0 * x }\n#[cfg(not(test))]\nfn g() {}",
         ] {
             assert_ne!(of(other), plain, "{other}");
+        }
+    }
+
+    /// What follows a field or a statement of tests is not taken for a part of it.
+    #[test]
+    fn nothing_beside_a_field_of_tests_is_lost() {
+        for [one, other] in [
+            [
+                "struct A { #[cfg(test)] x: f64, y: f64 }",
+                "struct A { #[cfg(test)] x: f64, y: f32 }",
+            ],
+            [
+                "fn f() { #[cfg(test)] g(); h() } fn i() {}",
+                "fn f() { #[cfg(test)] g(); j() } fn i() {}",
+            ],
+            [
+                "mod a { #![cfg(test)] } fn f() {}",
+                "mod a { #![cfg(test)] } fn g() {}",
+            ],
+        ] {
+            assert_ne!(of(one), of(other), "{one}");
         }
     }
 

@@ -7,49 +7,49 @@ use crate::study::convention::{ArmEffect, FiledPassport, PropertyRow, TOLERANCE}
 /// Everything in which two passports differ.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Difference {
-    /// Rules and properties that are others, in the order of the passports.
+    /// Rules and properties that differ, in the order of the passports.
     pub changes: Vec<Change>,
     /// The exact yield forces of the stacks that both have.
     pub forces: Vec<ForceChange>,
 }
 
-/// A rule or a property that is another.
+/// A rule or a property that differs.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Change {
     /// The key of the convention or the name of the property.
     pub name: String,
-    /// What the first passport has; absent where it does not know.
+    /// Its value in the first passport; absent if unknown there.
     pub before: Option<String>,
-    /// What the second one has.
+    /// Its value in the second one.
     pub after: Option<String>,
     /// Second minus first number.
     pub change: Option<f64>,
     /// The sum of both uncertainties.
     pub uncertainty: Option<f64>,
-    /// Whether the yield force depends on it by an arm.
+    /// Whether it is an arm, on which the yield force depends.
     pub moves_limit: bool,
 }
 
 /// The exact yield force of one stack under the arms of both.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ForceChange {
-    /// The stack, with what the first passport says.
+    /// The stack, with its force in the first passport.
     pub before: ArmEffect,
     /// The force under the arms of the second one, in m g.
     pub after: Option<f64>,
     /// Second minus first, in m g.
     pub change: Option<f64>,
-    /// The sum of what both leave open, in m g.
+    /// The sum of both uncertainties, in m g.
     pub uncertainty: Option<f64>,
 }
 
 impl Difference {
-    /// Whether anything is another.
+    /// Whether nothing has changed.
     pub fn is_none(&self) -> bool {
         self.changes.is_empty()
     }
 
-    /// The changes beside those of arms that move the yield force, of which `forces` knows nothing.
+    /// Returns the changes that move the yield force but are not of arms; `forces` leaves them out.
     pub fn beside_arms(&self) -> Vec<&str> {
         let moves = |own: &&Change| {
             let mut meanings = meanings().iter();
@@ -62,15 +62,15 @@ impl Difference {
 }
 
 impl Change {
-    /// How many uncertainties the change is; absent of words and of what is exact.
+    /// Returns the change in units of its uncertainty; absent for words and for exact numbers.
     pub fn uncertainties(&self) -> Option<f64> {
         let (change, uncertainty) = self.change.zip(self.uncertainty)?;
         (uncertainty > 0.0).then(|| change.abs() / uncertainty)
     }
 }
 
-/// What differs between the passports `before` and `after`: rules in words, and numbers that differ by more than their
-/// uncertainties and what a property may differ from its declaration.
+/// Compares the passports `before` and `after`. Rules in words differ if their words do; numbers differ by more than
+/// their uncertainties and the tolerance between a property and its declaration.
 pub fn difference(before: &FiledPassport, after: &FiledPassport) -> Difference {
     let further = after.convention.iter();
     let further = further.filter(|own| before.key(&own.key).is_none());
@@ -109,7 +109,7 @@ pub fn difference(before: &FiledPassport, after: &FiledPassport) -> Difference {
     }
 }
 
-/// The change of the property `name`, if it is another.
+/// Returns the change of the property `name`, if it differs.
 fn changed(
     name: &str,
     before: Option<&PropertyRow>,

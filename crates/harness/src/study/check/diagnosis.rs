@@ -1,4 +1,4 @@
-//! The items on a stack and on micro-tests, and the one mistake that explains what failed among them.
+//! Items on a stack and on micro-tests, and the one mistake that explains those that failed.
 
 use super::evidence::{Evidence, MOVED, ROUNDING, SAME};
 use super::micro::{self, Micro};
@@ -11,7 +11,7 @@ use crate::series::Series;
 
 /// Largest distance of motions that have the same law and integrator: rounding, which single contacts do not amplify.
 const SAME_MOTION: f64 = 1e-9;
-/// How the table begins to tell of a rule that is none of ours, and right.
+/// Prefix of entries for valid rules that tristack does not have.
 const NO_MISTAKE: &str = "no mistake";
 /// Steps by which the velocities of a leapfrog lag behind the positions.
 const LEAPFROG_LAG: f64 = 0.5;
@@ -25,11 +25,12 @@ const REPORTED: [&str; 7] = [
     "torque2",
     "wall_force",
 ];
-/// So many micro-tests agree to the last digits only where the integrator is that of the twin.
+/// Number of micro-tests that agree to the last digits only if the code has the integrator of the twin.
 const MANY_EXACT: usize = 5;
 
-/// The items on the `series` of `case`, and on the micro-tests where there are any; what failed is explained by the
-/// mistake that gives all of it, else by itself, else by what is usual.
+/// Returns the items on the `series` of `case`, and on the micro-tests if there are any. Failed items are explained
+/// by the mistake that explains all of them, else by a gross mistake or the equations that fail, else by their own
+/// causes, else by the usual ones.
 pub(super) fn items(series: &Series, case: &Case, micro: Option<&Micro>) -> Vec<Item> {
     let of_micro = items_of(micro);
     let conventions = micro.map_or_else(|| vec![case.convention], Micro::conventions);
@@ -67,7 +68,8 @@ pub(super) fn items(series: &Series, case: &Case, micro: Option<&Micro>) -> Vec<
         .iter_mut()
         .filter(|item| item.outcome == Outcome::Failed)
     {
-        // Beside a mistake the declaration may be right, or wrong as well.
+        // If the mistake is found under the declared convention, the declaration may be right. Otherwise it may be
+        // wrong as well, and keeps its own causes.
         let is_declaration = item.name == micro::DECLARATION && (place > 0 || causes.is_empty());
         if !causes.is_empty() && !is_declaration {
             item.causes.clone_from(&causes);
@@ -90,7 +92,8 @@ fn items_of(micro: Option<&Micro>) -> Vec<Item> {
     micro.map_or_else(none, Micro::items)
 }
 
-/// The items of a code under a convention that the twin does not make: those on its micro-tests alone.
+/// Returns the items of a code whose convention the twin cannot run: the stack is not tested, only its micro-tests
+/// are.
 pub(super) fn of_micro_tests(convention: &ContactConvention, micro: Option<&Micro>) -> Vec<Item> {
     let reason = match convention.law.is_linear() {
         false => {
@@ -107,8 +110,8 @@ pub(super) fn of_micro_tests(convention: &ContactConvention, micro: Option<&Micr
     items
 }
 
-/// Where something is wrong, if no mistake of the table is it: the equations that do not hold in the micro-tests, or else the
-/// place in the stack; and whether the mistake is known by that.
+/// Locates a mistake that is not in the table: by the equations that fail in the micro-tests, or else by the place in
+/// the stack. Also returns whether that names the mistake.
 fn located(
     known: &Known,
     series: &Series,
@@ -128,7 +131,7 @@ fn located(
         _ => {
             let convention = known.stacks[0].twin.convention;
             let stack = Evidence::of_stack(series, case, convention, false);
-            // Where only what is written is wrong, nothing follows from it.
+            // If only values are written wrongly, the forces of the stack tell nothing further.
             let place: Vec<String> = stack.beginning().into_iter().collect();
             let moves = place.iter().any(|own| own.starts_with(MOVED));
             let further = if moves {
@@ -141,7 +144,7 @@ fn located(
     }
 }
 
-/// An item that failed because of a rule that is right; a declaration of another rule is wrong all the same.
+/// Turns an item that failed because of a valid rule into a remark. A declaration of another rule stays wrong.
 fn excused(item: Item, rule: &str) -> Item {
     match item.outcome {
         Outcome::Failed if item.name == micro::DECLARATION => Item {
@@ -153,7 +156,7 @@ fn excused(item: Item, rule: &str) -> Item {
     }
 }
 
-/// The mistakes that explain the micro-tests of a code whose stack explodes.
+/// Returns the mistakes that explain the micro-tests of a code whose stack explodes.
 pub(super) fn of_motions(micro: &Micro) -> Vec<String> {
     let each = micro.conventions().into_iter().map(|convention| {
         let motions: Vec<Evidence> = micro
@@ -171,9 +174,9 @@ pub(super) fn of_motions(micro: &Micro) -> Vec<String> {
         .unwrap_or_default()
 }
 
-/// What a code has written, beside its twins.
+/// The results of a code, compared with those of its twins.
 struct Known {
-    /// The stack up to its peak, and to its end where law and integrator are those of the twin.
+    /// The stack up to its peak; also to its end, if law and integrator are those of the twin.
     stacks: Vec<Evidence>,
     motions: Vec<Evidence>,
     /// Whether the code has the law and the integrator of the twin.
@@ -192,7 +195,7 @@ impl Known {
         let mut motions: Vec<Evidence> = motions
             .map(|answer| Evidence::of_motion(answer, convention))
             .collect();
-        // In order of what they show, so that what does not fit is soon seen.
+        // Largest distance first, so that a mistake that does not fit is soon rejected.
         motions.sort_by(|one, two| two.before.total_cmp(&one.before));
         let exact = motions
             .iter()
@@ -207,7 +210,7 @@ impl Known {
             stacks[0].same = ROUNDING;
             motions.iter_mut().for_each(|own| own.same = ROUNDING);
         } else if !is_wrong {
-            // Another integrator.
+            // The micro-tests are right, so their distances come from another integrator.
             motions.clear();
         }
         Self {
@@ -217,7 +220,7 @@ impl Known {
         }
     }
 
-    /// The item on micro-tests that are not those of the twin, although others are to the last digits.
+    /// Returns the item on micro-tests that differ from the twin, although others agree with it to the last digits.
     fn item(&self) -> Option<Item> {
         let off = self
             .motions
@@ -237,7 +240,7 @@ impl Known {
         ))
     }
 
-    /// The mistakes that explain everything, or else the motions.
+    /// Returns the mistakes that explain everything, or else the motions or the stack alone.
     fn causes(self) -> Vec<String> {
         let Self {
             stacks,
@@ -272,7 +275,7 @@ impl Known {
             causes = search::explanations(&motions);
         }
         if causes.is_empty() && !law && is_exact {
-            // Where few columns are off, they are written wrongly, and no size of anything explains them.
+            // If few columns are off, they are written wrongly, and no fitted size explains them.
             let place = stacks[0].beginning();
             causes.extend(place.filter(|own| !own.starts_with(MOVED)));
         }

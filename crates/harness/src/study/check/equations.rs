@@ -1,8 +1,9 @@
-//! The equations of motion, held to a code's own numbers row by row: which of them fails, where, and by what.
+//! The equations of motion, tested with a code's own numbers row by row: which of them fails, where, and by which
+//! terms.
 //!
-//! The law is evaluated at the positions and velocities that the code has written, so that a mistake in one equation
-//! does not spread to the next, and what is left over in it is the mistake itself. One or two terms that leave nothing of
-//! it name the mistake.
+//! The law is evaluated at the positions and velocities that the code has written. So a mistake in one equation does
+//! not spread to the next, and the residual is the mistake itself. One or two terms that explain the whole residual
+//! name the mistake.
 
 use super::factor::of_factor;
 use super::table::MOST_CAUSES;
@@ -16,24 +17,25 @@ use crate::series::{BodyRow, MotionRow};
 use crate::study::convention::fit_rows;
 use std::cell::LazyCell;
 
-/// Largest part of its largest value by which a quantity may miss its equation: rounding, which one row does not amplify.
+/// Largest residual of a quantity that fits its equation, in units of its largest value: rounding, which one row does
+/// not amplify.
 const HOLDS: f64 = 1e-9;
-/// Part of what was left over that may remain where terms explain it.
+/// Fraction of a residual that may remain where terms explain it.
 const EXPLAINED: f64 = 1e-6;
-/// A factor that is nearer to 1 than this comes from rounding.
+/// A factor that differs from 1 by less than this comes from rounding.
 const ROUNDED: f64 = 1e-3;
-/// So many digits are no longer few.
+/// Number of digits from which they are no longer few.
 const FEW_DIGITS: usize = 15;
-/// Part of the numbers under a condition that must be wrong if that is where they are wrong.
+/// Fraction of the numbers under a condition that must be wrong if the condition is to be named.
 const MOST: f64 = 0.8;
-/// The same of the numbers that the mistake of the first ones explains.
+/// Fraction of all wrong numbers that terms fitted to the first ones must explain.
 const MOST_OF_ALL: f64 = 0.5;
 const BEGINNING: usize = 12;
-/// Longest period of something that is not done in every step.
+/// Bound on the period, in steps, of something that is not done in every step.
 const MOST_STEPS: u64 = 101;
 /// Fewer numbers do not tell terms apart.
 const FEWEST: usize = 4;
-/// Widest gap between surfaces that are looked at as neighbours.
+/// Widest gap between surfaces that count as neighbours.
 const NEAR: f64 = 0.2;
 /// The kinds of contact.
 const PLACES: [&str; 3] = ["between cylinders", "at the floor", "at the top wall"];
@@ -51,7 +53,7 @@ const VELOCITIES: [&str; 3] = [
     "the spin",
 ];
 
-/// One number of a row in its equation: the sum of what its terms have along three axes.
+/// One number of a row in its equation. Its terms are summed over three axes, with the weights `along`.
 struct Line {
     along: [f64; 3],
     found: f64,
@@ -61,15 +63,15 @@ struct Line {
 
 /// An equation with all its numbers.
 struct Equation {
-    /// What it gives, where, of which body, and when.
+    /// Quantity, place, body, and when.
     name: [&'static str; 4],
     terms: &'static [Term],
     lines: Vec<Line>,
 }
 
-/// What is added or left out in an equation.
+/// A mistake in an equation: what is added or left out.
 struct Relation {
-    /// Where it is so; equations that fail in the same way are told together.
+    /// Where it shows. Equations that fail in the same way are told together.
     condition: String,
     text: String,
     is_explained: bool,
@@ -94,7 +96,7 @@ fn largest(lines: &[&Line], value: impl Fn(&Line) -> f64) -> f64 {
 }
 
 impl Equation {
-    /// What is added or left out; `None` if the equation holds.
+    /// Returns what is added or left out; `None` if the equation holds.
     fn relation(&self) -> Option<Relation> {
         let all: Vec<&Line> = self.lines.iter().collect();
         let rounding = HOLDS * largest(&all, |line| line.expected.abs().max(line.found.abs()));
@@ -124,7 +126,7 @@ impl Equation {
             return explained(String::new(), told);
         }
         let place = self.place(&off, rounding);
-        // What begins with another mistake is mostly the same one.
+        // Terms that fit the first wrong numbers mostly explain the others too.
         let beginning = &off[..off.len().min(BEGINNING)];
         if let Some(told) = self
             .told(&off, &off, rounding)
@@ -144,7 +146,7 @@ impl Equation {
         })
     }
 
-    /// What is moved every so many steps only, before or after the forces are computed.
+    /// Detects what is updated only every so many steps, before or after the forces are computed.
     fn in_stairs(&self, lines: &[&Line], rounding: f64) -> Option<String> {
         let allowed = rounding.max(EXPLAINED * largest(lines, Line::left));
         let mut rhythms = (2..MOST_STEPS).flat_map(|every| [(every, 0), (every, 1)]);
@@ -162,7 +164,7 @@ impl Equation {
         })
     }
 
-    /// The terms, one or two, that explain `lines`, and most of `all`.
+    /// Names one or two terms that explain `lines`, and at least the fraction [`MOST_OF_ALL`] of `all`.
     fn told(&self, lines: &[&Line], all: &[&Line], rounding: f64) -> Option<String> {
         let allowed = rounding.max(EXPLAINED * largest(lines, Line::left));
         let count = self.terms.len();
@@ -197,7 +199,8 @@ impl Equation {
         })
     }
 
-    /// Coefficients of some terms that leave no more than is allowed.
+    /// Fits the coefficients of `terms`; `None` if `lines` are too few, or if more than `allowed` is left in one of
+    /// them.
     fn fit(&self, terms: &[usize], lines: &[&Line], allowed: f64) -> Option<Vec<f64>> {
         if lines.len() < FEWEST.max(3 * terms.len()) {
             return None;
@@ -227,7 +230,8 @@ impl Equation {
         (found.iter().all(|own| own.is_finite()) && rows.iter().all(rest)).then_some(found)
     }
 
-    /// Under which condition some of the lines are off, or in which steps.
+    /// Says under which condition, above which overlap or in which steps the lines in `off` lie; empty if most lines
+    /// do.
     fn place(&self, off: &[&Line], rounding: f64) -> String {
         let count = |meets: &dyn Fn(&Moment) -> bool| {
             self.lines.iter().filter(|line| meets(&line.moment)).count()
@@ -273,7 +277,7 @@ impl Equation {
         }
     }
 
-    /// The digits to which the numbers of a task are rounded, if they are.
+    /// Returns the number of digits to which the numbers of a task are rounded, if they are.
     fn digits(&self) -> Option<usize> {
         let is = |line: &Line, digits| {
             format!("{:.*e}", digits - 1, line.expected).parse() == Ok(line.found)
@@ -289,7 +293,7 @@ impl Relation {
     }
 }
 
-/// What a coefficient of a term means.
+/// Says what the coefficient of a term means.
 fn told(term: &Term, coefficient: f64) -> String {
     let name = term.name;
     if !term.is_part {
@@ -309,16 +313,16 @@ fn told(term: &Term, coefficient: f64) -> String {
     format!("{name} is {factor:.6} times what it must be{meaning}")
 }
 
-/// The equations that fail, in words, those first whose mistake is known.
+/// The failing equations in words. Those whose mistake is known come first.
 pub(super) struct Failing {
     pub texts: Vec<String>,
-    /// Whether the first one is known.
+    /// Whether the mistake in the first one is known.
     pub is_explained: bool,
 }
 
-/// The equations that fail in `answers` of a code with this `convention`, and what is added or left out there. If most of
-/// them fail, only those whose mistake is known are told: the integrator may be another one. Where velocities lag by half
-/// a step the code `leaps`, and its integration is looked at too.
+/// Returns the equations that fail in `answers` of a code with this `convention`, and what is added or left out in
+/// them. If most of them fail, the integrator may be a different one, and only those whose mistake is known are
+/// returned. A code whose velocities lag by half a step `leaps`; then its integration is tested too.
 pub(super) fn failing(answers: &[Answer], convention: ContactConvention, leaps: bool) -> Failing {
     let read = |follows| {
         let mut own = Equations {
@@ -336,7 +340,7 @@ pub(super) fn failing(answers: &[Answer], convention: ContactConvention, leaps: 
     for equation in &all {
         let follows = |(other, _): &(&Equation, Relation)| other.name[..3] == equation.name[..3];
         if let Some(relation) = equation.relation().filter(|_| !failing.iter().any(follows)) {
-            // The spring of the step before may be the code's own, too.
+            // Otherwise the tangential spring is taken from the code's own force in the step before.
             let relation = match relation.is_explained {
                 true => relation,
                 false => {
@@ -377,7 +381,7 @@ pub(super) fn failing(answers: &[Answer], convention: ContactConvention, leaps: 
     }
 }
 
-/// What some equations give, in words.
+/// Names the quantities of some equations, with their bodies and places.
 fn subject(equations: &[&Equation]) -> String {
     let listed = |word: usize| {
         let mut words: Vec<&str> = Vec::new();
@@ -407,7 +411,7 @@ const STILL: BodyRow = BodyRow {
     torque: 0.0,
 };
 
-/// The way of the contacts through a micro-test.
+/// The history of a contact in a micro-test.
 #[derive(Default)]
 struct Walk {
     touch: Touch,
@@ -416,7 +420,7 @@ struct Walk {
 }
 
 impl Walk {
-    /// Goes on to the next row, in which the first body has this contact, open or closed.
+    /// Advances to the next row, in which the first body has this contact, open or closed.
     fn go(
         &mut self,
         twin: &Twin,
@@ -432,7 +436,14 @@ impl Walk {
             (false, "") => "",
             (false, _) => AFTERWARDS,
         };
-        let other = if contact == 0 { two } else { STILL };
+        let other = match contact {
+            0 => two,
+            contact if WALL.contains(&contact) => BodyRow {
+                velocity: [0.0, -twin.run.wall_speed],
+                ..STILL
+            },
+            _ => STILL,
+        };
         let normal = normal(contact, one, two);
         let relative = [0, 1].map(|axis| one.velocity[axis] - other.velocity[axis]);
         let across = normal[0] * relative[1] - normal[1] * relative[0];
@@ -463,7 +474,7 @@ impl Walk {
     }
 }
 
-/// Towards the first body.
+/// Returns the normal of a contact, towards the first body.
 fn normal(contact: usize, one: BodyRow, two: BodyRow) -> [f64; 2] {
     match contact {
         0 => {
@@ -475,7 +486,7 @@ fn normal(contact: usize, one: BodyRow, two: BodyRow) -> [f64; 2] {
     }
 }
 
-/// The overlaps of a body with the other one, the floor and the wall, negative where they are apart.
+/// Returns the overlaps of a body with the other one, the floor and the wall; a gap is negative.
 fn overlaps(index: usize, [one, two]: [BodyRow; 2], wall: f64) -> [f64; 3] {
     let apart = [0, 1].map(|axis| one.position[axis] - two.position[axis]);
     let y = [one, two][index].position[1];
@@ -486,7 +497,7 @@ fn overlaps(index: usize, [one, two]: [BodyRow; 2], wall: f64) -> [f64; 3] {
 struct Equations {
     all: Vec<Equation>,
     leaps: bool,
-    /// Whether the tangential spring of a step is that which the force of the step before shows.
+    /// Whether the tangential spring is taken from the force that the code has written for the step before.
     follows: bool,
 }
 
@@ -516,7 +527,7 @@ impl Equations {
         });
     }
 
-    /// All numbers of a micro-test.
+    /// Adds all numbers of a micro-test.
     fn read(&mut self, answer: &Answer, convention: ContactConvention) {
         let restitution = answer.test.convention.restitution;
         let test = ContactTest {
@@ -553,7 +564,7 @@ impl Equations {
         }
     }
 
-    /// Force and torque on a body.
+    /// Adds the force and torque on a body, and the force that is written for the wall.
     fn forces(
         &mut self,
         row: &MotionRow,
@@ -625,7 +636,8 @@ impl Equations {
         }
     }
 
-    /// The change of positions and velocities since the step before.
+    /// Adds the position at step 0. If the code leaps, also adds the velocity at step 0, and the changes of positions
+    /// and velocities in a step.
     fn integration(&mut self, moment: &Moment, last: Option<&Moment>) {
         const POSITIONS: [&str; 2] = ["x", "y"];
         let now = &moment.now;
@@ -671,12 +683,12 @@ impl Equations {
     }
 }
 
-/// The direction of an axis, 2 being that of what turns.
+/// Returns the unit vector of an axis, 2 being that of rotation.
 fn axis_only(axis: usize) -> [f64; 3] {
     std::array::from_fn(|own| f64::from(u8::from(own == axis)))
 }
 
-/// One body of a row, in the contact of that kind.
+/// Returns the moment of one body of a row, in its contact of that `kind`.
 fn moment(
     walk: &Walk,
     twin: &Twin,
@@ -705,7 +717,7 @@ mod tests {
     use super::*;
     use crate::series::Motion;
 
-    /// What is told of the native DEM after a change of its rows.
+    /// Returns what is told of the native DEM after a `change` of its rows.
     fn told_after(change: impl Fn(&mut MotionRow)) -> Vec<String> {
         let mut answers = ask_native(ContactConvention::TURNING);
         for answer in &mut answers {

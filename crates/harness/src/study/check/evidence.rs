@@ -1,30 +1,31 @@
-//! What a code has written beside what its twin writes, in units in which a deviation of 1 is as large as the load, the
-//! whole displacement, or the largest force of a micro-test.
+//! What a code has written, compared with what its twin writes. A deviation of 1 is as large as the load, the whole
+//! displacement, or the largest force of a micro-test.
 
 use super::twin::{FLOOR, OF_BODY, PER_CONTACT, Row, Twin, WALL};
 use crate::model::{Case, ContactConvention, ContactTest};
 use crate::runs::Answer;
 use crate::series::{Column as Declared, MotionRow, Sample, Series};
 
-/// Largest distance of two codes with the same law, whose integrators differ: ten times that of LAMMPS.
+/// Largest distance of two codes with the same law but different integrators: ten times that of LAMMPS.
 pub(super) const SAME: f64 = 1e-3;
 /// Largest distance of two codes with the same law and integrator: rounding, which grows in a contact that slides.
 pub(super) const ROUNDING: f64 = 1e-6;
-/// Part of a deviation that may remain where its cause is found.
+/// Fraction of a deviation that may remain once its cause is found.
 const EXPLAINED: f64 = 0.1;
-/// How it is told that a stack moves otherwise.
+/// Prefix of the text on a stack that moves differently although its micro-tests are right.
 pub(super) const MOVED: &str = "single contacts are right";
-/// Part of the largest value up to which a column is nearly another number.
+/// Largest deviation, in units of its scale, of a column that is nearly a multiple of the right values.
 const NEARLY: f64 = 1e-2;
 /// Factor by which a small distance, that of another integrator, may grow.
 const AS_BEFORE: f64 = 3.0;
 
-/// The place of a number of a contact in a row: 0 normal, 1 tangential force, 2 spring's force, 3 overlap, 4 spring.
+/// Returns the index in a row of a number of a contact: 0 normal force, 1 tangential force, 2 force of the normal
+/// spring, 3 overlap, 4 length of the tangential spring, 5 trial force.
 pub(super) const fn of_contact(contact: usize, number: usize) -> usize {
     3 * OF_BODY.len() + contact * PER_CONTACT + number
 }
 
-/// A column of a result, as a sum of the twin's numbers.
+/// A column of a result, as a signed sum of the twin's numbers.
 #[derive(Debug, Clone)]
 pub(super) struct Column {
     pub name: &'static str,
@@ -40,7 +41,7 @@ impl Column {
             .sum()
     }
 
-    /// The column of that name: a number of a body, or a contact force.
+    /// Returns the column called `name`: a number of a body, or a contact force.
     fn named(name: &'static str, is_motion: bool) -> Option<Self> {
         let (letters, body) = name.split_at(name.len() - 1);
         let body = body
@@ -80,14 +81,15 @@ pub(super) struct Evidence {
     pub columns: Vec<Column>,
     /// Step and values of every row.
     pub found: Vec<(u64, Vec<f64>)>,
-    /// The distance of the twin without a fault.
+    /// Distance from the twin without a fault.
     pub before: f64,
-    /// The distance from which on the rows are others.
+    /// Distance from which the rows count as different.
     pub same: f64,
 }
 
 impl Evidence {
-    /// A stack that a code with this `convention` has compressed, to its end or up to its peak.
+    /// Returns the evidence of a stack that a code with this `convention` has compressed: to its end if `is_whole`,
+    /// else up to its peak.
     pub fn of_stack(
         series: &Series,
         case: &Case,
@@ -107,7 +109,7 @@ impl Evidence {
         Self::new(Twin::of_stack(&case), columns, &samples[..until])
     }
 
-    /// A micro-test in which the law has this `convention`.
+    /// Returns the evidence of a micro-test under this `convention`, with the restitution of the test.
     pub fn of_motion(answer: &Answer, convention: ContactConvention) -> Self {
         let restitution = answer.test.convention.restitution;
         let convention = ContactConvention {
@@ -149,7 +151,7 @@ impl Evidence {
         own
     }
 
-    /// The same where the code is a twin with a fault.
+    /// Replaces the rows by those of a twin with a `fault`.
     #[cfg(test)]
     pub fn written_by(mut self, fault: impl Fn(&mut Twin)) -> Self {
         let mut wrong = self.twin.clone();
@@ -163,7 +165,7 @@ impl Evidence {
         self
     }
 
-    /// The rows of the twin without a fault, in every step.
+    /// Returns the rows of the twin without a fault, at every step.
     pub fn dense(&self) -> Vec<Row> {
         let mut rows = Vec::new();
         self.twin.clone().run(|_, row| {
@@ -173,7 +175,7 @@ impl Evidence {
         rows
     }
 
-    /// The load, the largest displacement, rotation and speed.
+    /// Sets the scale of every column: the twin's largest displacement, rotation, speed or force.
     fn set_scales(&mut self) {
         let mut largest = [f64::MIN_POSITIVE; 4];
         let mut first: Option<Row> = None;
@@ -193,7 +195,8 @@ impl Evidence {
             .for_each(|column| column.scale = largest[kind(column.name)]);
     }
 
-    /// The distance of the twin with a fault, or the first one above `limit`.
+    /// Returns the largest distance from the twin with a `fault`, or the first one above `limit`; infinite if the
+    /// twin does not reach all rows or gives NaN.
     pub fn distance(&self, fault: impl Fn(&mut Twin), limit: f64) -> f64 {
         let mut twin = self.twin.clone();
         fault(&mut twin);
@@ -218,7 +221,7 @@ impl Evidence {
         }
     }
 
-    /// The first row that is off, in its column that is furthest off: name, step, found, expected.
+    /// Returns the first row that is off, in the column that is furthest off: name, step, found, expected.
     pub fn first_off(&self) -> (&'static str, u64, f64, f64) {
         let dense = self.dense();
         let rows = self
@@ -241,7 +244,8 @@ impl Evidence {
             .map_or(("", 0, 0.0, 0.0), |(_, told)| told)
     }
 
-    /// Where a stack begins to be another one, although its micro-tests are right.
+    /// Says where the rows begin to deviate from the twin: in a few columns alone, or in the motion of a stack whose
+    /// micro-tests are right. `None` if nothing is off.
     pub fn beginning(&self) -> Option<String> {
         let dense = self.dense();
         let right = |step: u64, column: &Column| {
@@ -303,7 +307,7 @@ impl Evidence {
         Some(format!("{MOVED}, and {when}; {told}"))
     }
 
-    /// Whether the right half mirrors the left one, as far as that shows in the forces of the floor.
+    /// Whether the right half mirrors the left one, judged by the normal forces of the floor.
     pub fn is_symmetric(&self) -> bool {
         let place = |name: &str| self.columns.iter().position(|column| column.name == name);
         place("floor_n2")
@@ -318,12 +322,12 @@ impl Evidence {
             })
     }
 
-    /// Whether the rows are not those of the twin without a fault.
+    /// Whether the rows differ from those of the twin without a fault.
     pub fn is_off(&self) -> bool {
         self.before >= self.same
     }
 
-    /// The same of all columns beside some.
+    /// Whether any column other than `names` is off.
     pub fn is_off_beside(&self, names: &[&str]) -> bool {
         let mut beside = self.clone();
         for column in beside
@@ -336,7 +340,7 @@ impl Evidence {
         beside.distance(|_| (), self.same) >= self.same
     }
 
-    /// The largest distance that is allowed to what explains these rows.
+    /// Returns the largest distance at which a twin with a fault explains these rows.
     pub fn allowed(&self) -> f64 {
         match self.is_off() {
             true => self.same.min(EXPLAINED * self.before),
@@ -345,7 +349,7 @@ impl Evidence {
     }
 }
 
-/// Lengths, angles, speeds, forces.
+/// Returns the kind of a column: 0 length, 1 angle, 2 speed, 3 force or torque.
 fn kind(name: &str) -> usize {
     match name.as_bytes()[0] {
         b'x' | b'y' => 0,

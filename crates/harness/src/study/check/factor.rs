@@ -1,4 +1,4 @@
-//! Numbers by which quantities are often off, with what is behind them.
+//! Factors by which quantities are often off, and what they mean.
 
 use super::table::meanings;
 
@@ -10,13 +10,13 @@ pub(super) fn is_about(found: f64, value: f64) -> bool {
     (found - value).abs() <= SAME_NUMBER * value.abs().max(f64::MIN_POSITIVE)
 }
 
-/// Meanings of a factor by which a force, a length or a stiffness is off, where m g is `weight` k_n r.
+/// Returns the meanings of a factor by which a force, a length or a stiffness is off, where m g is `weight` k_n r.
 pub(super) fn of_factor(factor: f64, weight: f64) -> Vec<String> {
     let number = |name: &str| if name == "gravity" { weight } else { f64::NAN };
     meanings("", factor, 1.0, 1.0, number)
 }
 
-/// Meanings of a friction that was found where `asked` was, and `other` is that of the other contacts.
+/// Returns the meanings of a friction `found` in place of `asked`, where `other` is that of the other contacts.
 pub(super) fn of_friction(found: f64, asked: f64, other: f64) -> Vec<String> {
     meanings("friction", found, asked, other, |_| f64::NAN)
 }

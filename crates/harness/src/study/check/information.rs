@@ -1,4 +1,4 @@
-//! What is worth knowing of a code whose results are in order.
+//! What is worth knowing about a code whose results are in order.
 
 use super::micro::Micro;
 use super::report::{Grade, Item};
@@ -9,7 +9,7 @@ use crate::study::convention::{ArmEffects, Finding, Passport, passport};
 const CONVENTION: &str = "measured convention";
 const BITS: &str = "the same task twice";
 
-/// Whether two runs of one task are the same.
+/// Says whether two runs of one task give the same bits, or else by how much they scatter.
 pub(super) fn same_bits(first: &Series, second: Option<&Series>) -> Item {
     let grade = Grade::Informational;
     let Some(second) = second else {
@@ -45,7 +45,7 @@ pub(super) fn same_bits(first: &Series, second: Option<&Series>) -> Item {
     )
 }
 
-/// The convention, what it changes, and whose it is: the passport in short.
+/// Sums up the passport: the convention, what it changes, and which codes share it.
 pub(super) fn information(code: &Code, micro: Option<&Micro>) -> Vec<Item> {
     let grade = Grade::Informational;
     let Some(micro) = micro else {
@@ -75,8 +75,8 @@ pub(super) fn information(code: &Code, micro: Option<&Micro>) -> Vec<Item> {
     items.chain(others).collect()
 }
 
-/// What it does to a force to turn everything, bodies, walls and gravity, if a contact that turns leaves its spring behind. The
-/// share was measured with two cylinders that turn together.
+/// Says how forces change if everything is turned, bodies, walls and gravity, for a code whose contacts leave their
+/// springs behind as they turn. The share was measured with two cylinders that turn together.
 fn turned(findings: &[Finding]) -> Option<Item> {
     let mut findings = findings.iter();
     let own = findings.find(|own| own.property == "pair_spring_left_behind")?;
@@ -93,12 +93,12 @@ fn turned(findings: &[Finding]) -> Option<Item> {
     ))
 }
 
-/// Turn by which the dependence on the axes is shown.
+/// Turn for which the dependence on the axes is shown.
 const TURN_IN_DEGREES: f64 = 10.0;
-/// Share of a spring that is left behind from which on that is said.
+/// Share of a spring left behind above which the dependence is mentioned.
 const LEAST_SHARE: f64 = 1e-3;
 
-/// A number to six decimals, or a word.
+/// Rounds a number to six decimals; returns a word as it is.
 fn in_short(value: &str) -> String {
     let number = value.parse::<f64>();
     number.map_or(value.to_owned(), |number| {
@@ -106,7 +106,7 @@ fn in_short(value: &str) -> String {
     })
 }
 
-/// F with the arms of the code beside the paper's.
+/// Gives F with the arms of the code, and its change from the paper's.
 fn yield_force(effects: &ArmEffects) -> String {
     let stack = &effects.stack;
     let place = format!(
@@ -122,7 +122,7 @@ fn yield_force(effects: &ArmEffects) -> String {
     )
 }
 
-/// The codes inside the program with the same convention.
+/// Names the codes inside the program that have the same convention, or else the same arms.
 fn twin(passport: &Passport) -> String {
     let names = |codes: &[Code]| {
         codes

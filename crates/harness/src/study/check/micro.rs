@@ -1,5 +1,5 @@
-//! The parameters of a code, measured by the micro-tests of the probe. A parameter is what the task asks for: another
-//! value is a mistake, whereas a convention may be any.
+//! The parameters of a code, measured by the micro-tests of the probe. The task prescribes parameters, so another
+//! value is a mistake; a convention is the code's own choice.
 
 use super::factor::{is_about, of_friction};
 use super::reaction::action_and_reaction;
@@ -10,13 +10,12 @@ use crate::model::ContactConvention;
 use crate::runs::{Answer, ProbeRecord};
 use crate::study::convention::{Finding, Findings, TOLERANCE, read_probe};
 
-/// Relative deviation from which on numbers with few digits are another number.
+/// Largest relative deviation of numbers that have few digits.
 const GROSS: f64 = 1e-2;
-/// Most causes of one item.
+/// Largest number of causes of one item.
 const MOST_CAUSES: usize = 3;
 
-/// The properties that are parameters of the task, or follow from the way in which results are written, by the items
-/// under which they are reported.
+/// Items with the endings of their properties: the parameters of the task, and the way in which results are written.
 const PARAMETERS: [(&str, &[&str]); 7] = [
     ("mass", &["mass"]),
     ("normal stiffness", &["normal_stiffness"]),
@@ -32,7 +31,7 @@ const MOMENTS_NAME: &str = "forces and positions of one moment";
 /// The item on the declared convention.
 pub(super) const DECLARATION: &str = "declared convention";
 
-/// What the micro-tests say of a code.
+/// What the micro-tests show of a code.
 pub(super) struct Micro {
     pub findings: Findings,
     pub answers: Vec<Answer>,
@@ -40,10 +39,10 @@ pub(super) struct Micro {
 }
 
 impl Micro {
-    /// Reads the answers of `code`; `None` if they are not those to today's questions.
+    /// Reads the answers of `code`; `None` if they do not answer the present micro-tests.
     pub fn of(code: &Code, record: ProbeRecord) -> Option<Self> {
         let reaction = action_and_reaction(&record);
-        // Those in space have equations of their own, in the probe.
+        // Micro-tests in space have their own equations, in the probe.
         let in_the_plane = |answer: &&Answer| answer.test.space.is_none();
         let answers = record.answers.iter().filter(in_the_plane);
         let answers = answers.cloned().collect();
@@ -55,7 +54,7 @@ impl Micro {
         })
     }
 
-    /// Whether a property is another one than declared.
+    /// Whether a property deviates from its declaration.
     fn deviates(&self, own: &Finding) -> bool {
         let (Some(found), Some(declared)) = (own.measured, own.declared) else {
             return false;
@@ -68,7 +67,8 @@ impl Micro {
         (found - declared).abs() > (relative * scale).max(own.uncertainty.unwrap_or(0.0))
     }
 
-    /// The items on parameters, one a kind, and the one on the declared convention.
+    /// Returns the items on parameters, on action and reaction, on forces and positions of one moment, and on the
+    /// declared convention.
     pub fn items(&self) -> Vec<Item> {
         let parameters = PARAMETERS.iter();
         let parameters = parameters.map(|(name, endings)| self.item(name, endings));
@@ -105,7 +105,7 @@ impl Micro {
         Item::failed(Grade::Consistency, name, expected, found, causes)
     }
 
-    /// Mistakes that fit a parameter that is not as asked.
+    /// Returns the mistakes that explain a parameter that is not as asked.
     fn causes_of(&self, own: &Finding) -> Vec<String> {
         let mut findings = self.findings.findings.iter();
         let growth = findings.find_map(|other| {
@@ -119,7 +119,7 @@ impl Micro {
         }
     }
 
-    /// The convention that the manifest declares, beside the measured one.
+    /// Compares the convention that the manifest declares with the measured one.
     fn declaration(&self) -> Item {
         let own = self.findings.findings.iter();
         let wrong = own.filter(|own| is_convention(own) && self.deviates(own));
@@ -139,7 +139,8 @@ impl Micro {
         Item::failed(Grade::Consistency, DECLARATION, expected, found, causes)
     }
 
-    /// How the manifest would say what was measured.
+    /// Says how the manifest would declare the measured `value`, or what is wrong with the code if it has no word for
+    /// it or the integrator is explicit Euler.
     fn correction(&self, own: &Finding, value: f64) -> String {
         let measured = &self.findings.measured;
         let known = own.key.filter(|key| measured.reason(*key).is_none());
@@ -162,8 +163,8 @@ impl Micro {
         )
     }
 
-    /// The conventions that the code may have: the declared one, and last the one by which the stack is looked at, which is
-    /// the measured one where the declared one is wrong.
+    /// Returns the conventions that the code may have: the declared one, then the measured one if that is valid and
+    /// the declaration wrong. The stack is examined under the last of them.
     pub fn conventions(&self) -> Vec<ContactConvention> {
         let settled = self.findings.settled.convention;
         let mut findings = self.findings.findings.iter();
@@ -179,7 +180,7 @@ impl Micro {
     }
 }
 
-/// Names and values of properties.
+/// Lists names and values of properties.
 fn list(findings: &[&Finding], value: impl Fn(&Finding) -> Option<f64>) -> String {
     let each = findings.iter().map(|own| {
         let value = value(own).unwrap_or(f64::NAN) + 0.0;
@@ -192,7 +193,7 @@ fn rounded(value: f64) -> f64 {
     (value * 1e6).round() / 1e6 + 0.0
 }
 
-/// The name of a property without the kind of contact.
+/// Returns the name of a property without the kind of contact.
 fn ending(name: &str) -> &str {
     let kinds = ["pair_", "floor_", "wall_"];
     kinds
@@ -209,7 +210,7 @@ fn is_convention(own: &Finding) -> bool {
         && !parameters.any(|other| *other == ending)
 }
 
-/// What fits a parameter of that `name` that is not as asked.
+/// Returns the mistakes that explain `found` in place of `asked` for a parameter called `name`.
 fn causes_of(name: &str, found: f64, asked: f64) -> Vec<String> {
     let texts = match (name, ending(name)) {
         ("wall_friction", _) => vec![format!(

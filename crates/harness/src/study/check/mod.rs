@@ -1,7 +1,7 @@
-//! The check of a folder before anything is judged: mandatory items, consistency, information, in this order.
+//! The check of a code's folder before anything is judged: mandatory items, then consistency, then information.
 //!
-//! A failure is explained by computing: the native DEM makes a mistake, or its series is written wrongly, and the result
-//! is compared with what the code has written.
+//! A failure is explained by computing: the twin, a second DEM, makes a mistake on purpose, or its right series is
+//! written wrongly, and the result is compared with what the code has written.
 
 mod diagnosis;
 mod equations;
@@ -38,19 +38,20 @@ use std::path::Path;
 use twin::Twin;
 use unreadable::explained;
 
-/// The stack that is compressed: soft, so that every convention shows, and above the critical friction.
+/// Friction and stiffness of the stack that is compressed: soft, so that every convention shows, and above the
+/// critical friction.
 const FRICTION: f64 = 0.3;
 const STIFFNESS: f64 = 100.0;
-/// Wall speed in units of the displacement by which the speeds of measurements are measured: twice their fastest.
+/// Wall speed in the unit of planned measurements ([`planned_protocol`]): twice the fastest of them.
 const SPEED: f64 = 4e-3;
 const TIME_STEP: f64 = 0.1;
-/// The beginning of the name of the directory of a run that failed.
+/// Prefix of the name of the directory that keeps the runs of a failed check.
 const EVIDENCE: &str = "tristack-check-";
 
-/// The case by which a code with this `convention` is checked.
+/// Returns the case by which a code with this `convention` is checked.
 ///
 /// # Panics
-/// Never: under the paper's convention the stack yields.
+/// Never: where springs turn the stack yields.
 pub fn case(convention: ContactConvention) -> Case {
     let stack = Stack {
         stiffness_ratio: Stack::usual_stiffness_ratio(convention.law.power),
@@ -64,11 +65,12 @@ pub fn case(convention: ContactConvention) -> Case {
     Case {
         stack,
         convention,
-        protocol: own.expect("the stack yields under the paper's convention"),
+        protocol: own.expect("the stack yields where springs turn"),
     }
 }
 
-/// Checks `code`, whose folder is `folder`; its runs are made anew, below a temporary directory, in the way of `context`.
+/// Checks `code`, whose folder is `folder`. All runs are made anew, below a temporary directory, and otherwise in the
+/// way of `context`.
 ///
 /// # Errors
 /// If there is no place for the runs.
@@ -92,7 +94,7 @@ pub fn check(code: &Code, folder: &str, context: &RunContext) -> io::Result<Repo
     Ok(report)
 }
 
-/// Keeps the directory of a run that failed, with its output, and says where.
+/// Keeps the runs of a failed check with their output, and names the kept directory in the items of `report`.
 fn keep(place: &Scratch, report: &mut Report) -> io::Result<()> {
     let kept = temporary(EVIDENCE.as_ref()).tempdir()?;
     std::fs::rename(place.path(), kept.path())?;
@@ -104,7 +106,7 @@ fn keep(place: &Scratch, report: &mut Report) -> io::Result<()> {
     Ok(())
 }
 
-/// The command that judges `code`, whose folder is `folder`.
+/// Returns the command that judges `code`, whose folder is `folder`.
 fn judged_by(code: &Code, folder: &str) -> String {
     let law = match code.law().power {
         Power::Linear => "",
@@ -114,7 +116,7 @@ fn judged_by(code: &Code, folder: &str) -> String {
     format!("tristack crosscheck {law}--codes {folder}")
 }
 
-/// A check on its way.
+/// A check in progress.
 struct Check<'a> {
     code: Code,
     context: &'a RunContext<'a>,
@@ -123,7 +125,7 @@ struct Check<'a> {
 }
 
 impl Check<'_> {
-    /// Goes through all items; `None` if going on made no sense.
+    /// Adds all items; returns `None` if a failure makes the rest pointless.
     fn go_through(&mut self) -> Option<()> {
         self.manifest();
         let installed = self.program()?;
@@ -173,7 +175,7 @@ impl Check<'_> {
         self.add(Item::passed(Grade::Mandatory, "manifest", found));
     }
 
-    /// The program is there and says its version, the same one twice.
+    /// Finds the program, which must say its version, and the same one twice.
     fn program(&mut self) -> Option<Box<dyn InstalledCode>> {
         const NAME: &str = "program";
         let expected = "a program that starts and says its version";
@@ -219,7 +221,7 @@ impl Check<'_> {
         Some(installed)
     }
 
-    /// A small stack, whose result must be complete.
+    /// Runs a small stack, whose result must be complete.
     fn stack(&mut self, installed: &dyn InstalledCode, case: &Case) -> Option<Run> {
         const NAME: &str = "task stack";
         let outcome = self.try_run(installed, case, "stack");
@@ -241,7 +243,7 @@ impl Check<'_> {
         }
     }
 
-    /// A sphere on three, if there is a task for it: as it is, turned, mirrored and numbered otherwise.
+    /// Runs a sphere on three, if the code has a task for it: as it is, turned, mirrored and renumbered.
     fn spheres(&mut self, installed: &dyn InstalledCode) {
         const NAME: &str = "task spheres";
         let usual = spheres::case(self.code.declaration().convention, Arrangement::default());
@@ -315,7 +317,7 @@ impl Check<'_> {
         })
     }
 
-    /// Where the stack explodes, the micro-tests may still say why.
+    /// Replaces the causes of a stack that explodes by those that the micro-tests show, if they show any.
     fn explain_explosion(&mut self, installed: &dyn InstalledCode) {
         let unstable = |item: &Item| item.found.contains("finite number");
         if !self.report.items.last().is_some_and(unstable)
@@ -341,7 +343,8 @@ impl Check<'_> {
         self.try_run(installed, case, name).ok()
     }
 
-    /// The answers to the micro-tests: `None` if they fail, nothing inside if there is no task for them.
+    /// Asks the micro-tests. Returns `None` if they fail, and `Some(None)` if the code has no task for them or its
+    /// answers cannot be read.
     fn micro_tests(&mut self, installed: &dyn InstalledCode) -> Option<Option<Micro>> {
         const NAME: &str = "task motion";
         if self.code.check_task(TaskKind::Motion).is_err() {
@@ -370,7 +373,7 @@ impl Check<'_> {
     }
 }
 
-/// The answers of the native DEM with this `convention`.
+/// Returns the answers of the native DEM under this `convention` to the micro-tests in the plane.
 #[cfg(test)]
 fn ask_native(convention: ContactConvention) -> Vec<crate::runs::Answer> {
     let mut answers = Vec::new();

@@ -1,6 +1,6 @@
-//! The numbers of the twin that may be wrong.
+//! The numbers of the twin that a mistake may change.
 
-/// Declares numbers that have a name and a right value.
+/// Declares a struct of numbers, each with its right value and its meaning.
 macro_rules! numbers {
     ($(#[$doc:meta])* $kind:ident: $($name:ident = $right:expr, $meaning:literal;)*) => {
         $(#[$doc])*
@@ -12,7 +12,7 @@ macro_rules! numbers {
         impl $kind {
             pub const RIGHT: Self = Self { $($name: $right,)* };
 
-            /// The number of that name.
+            /// Returns the number called `name`.
             pub fn by_name(&mut self, name: &str) -> Option<&mut f64> {
                 match name {
                     $(stringify!($name) => Some(&mut self.$name),)*
@@ -24,7 +24,7 @@ macro_rules! numbers {
 }
 
 numbers! {
-    /// The law of one contact. What is a factor is 1 where nothing is wrong, and a flag 0.
+    /// The law of one contact. Without a mistake factors are 1 and flags are 0.
     OfContact:
     normal_stiffness = 1.0, "k_n.";
     tangential_stiffness = 1.0, "k_t.";

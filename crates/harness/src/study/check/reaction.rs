@@ -1,16 +1,16 @@
-//! Newton's third law, in the micro-tests of a pair: what one cylinder feels the other feels with the opposite sign.
+//! Newton's third law in the micro-tests of a pair: the forces on both cylinders are opposite.
 
 use super::report::{Grade, Item};
 use crate::runs::ProbeRecord;
 use crate::series::BodyRow;
 
 const NAME: &str = "action and reaction";
-/// Largest sum of both forces, in units of one of them, that is rounding.
+/// Largest sum of both forces, in units of one of them, that counts as rounding.
 const ROUNDING: f64 = 1e-9;
-/// The same where numbers have few digits.
+/// The same bound for numbers with few digits.
 const GROSS: f64 = 1e-3;
 
-/// The forces of a pair at one moment, if it touches and neither cylinder touches anything else.
+/// Returns the forces of a pair at one moment, if it touches and neither cylinder touches anything else.
 fn forces([one, two]: [BodyRow; 2]) -> Option<[[f64; 2]; 2]> {
     let apart = [0, 1].map(|axis| one.position[axis] - two.position[axis]);
     let heights = [one, two].map(|body| body.position[1]);
@@ -18,7 +18,7 @@ fn forces([one, two]: [BodyRow; 2]) -> Option<[[f64; 2]; 2]> {
     (apart[0].hypot(apart[1]) < 2.0 && is_alone).then_some([one.force, two.force])
 }
 
-/// The item on the forces of all pairs.
+/// Returns the item on the forces of all pairs.
 pub(super) fn action_and_reaction(record: &ProbeRecord) -> Item {
     let motions = || {
         let answers = record.answers.iter();

@@ -1,4 +1,4 @@
-//! The result of a check: one item a question, in three grades.
+//! The result of a check: one item per question, in three grades.
 
 use serde::Serialize;
 
@@ -10,7 +10,7 @@ pub enum Grade {
     Mandatory,
     /// Mechanics and the task demand it.
     Consistency,
-    /// Nothing can be wrong with it.
+    /// It cannot fail.
     Informational,
 }
 
@@ -20,11 +20,11 @@ pub enum Grade {
 pub enum Outcome {
     /// Found as expected.
     Passed,
-    /// Found otherwise.
+    /// Found something other than expected.
     Failed,
     /// Worth knowing.
     Remark,
-    /// What it needs is not there.
+    /// Something that it needs is missing.
     NotTested,
 }
 
@@ -66,7 +66,7 @@ impl Item {
         }
     }
 
-    /// An item that could not be looked at, because of `reason`.
+    /// An item that could not be tested, because of `reason`.
     pub(super) fn not_tested(grade: Grade, name: &'static str, reason: impl Into<String>) -> Self {
         Self {
             outcome: Outcome::NotTested,
@@ -74,7 +74,7 @@ impl Item {
         }
     }
 
-    /// An item that found something else than `expected`, with `causes` that fit.
+    /// An item that found something other than `expected`, with `causes` that fit.
     pub(super) fn failed(
         grade: Grade,
         name: &'static str,
@@ -119,12 +119,12 @@ impl Report {
         }
     }
 
-    /// The worst grade that failed.
+    /// Returns the worst grade that failed.
     pub fn failed_grade(&self) -> Option<Grade> {
         self.failures().map(|item| item.grade).min()
     }
 
-    /// The items that failed.
+    /// Returns the items that failed.
     pub fn failures(&self) -> impl Iterator<Item = &Item> {
         let items = self.items.iter();
         items.filter(|item| item.outcome == Outcome::Failed)

@@ -1,5 +1,5 @@
-//! The search for the mistake: every entry of mistakes.toml, at every place, is made by the twin and compared with what
-//! the code has written.
+//! The search for the mistake: the twin makes every mistake of mistakes.toml at every place, and its result is
+//! compared with what the code has written.
 
 use super::evidence::{Evidence, ROUNDING};
 use super::numbers::{OfContact, OfRun};
@@ -8,17 +8,17 @@ use super::twin::{FLOOR, PAIRS, Twin, WALL};
 use rayon::prelude::*;
 use std::ops::Range;
 
-/// Mistakes at up to so many times the distance of the best one fit as well.
+/// Mistakes up to this many times the distance of the best one count as fitting equally well.
 const AS_WELL: f64 = 3.0;
-/// Steps of the golden section, and values that are tried first on either side of 1.
+/// Steps of the golden-section search, before which [`FIRST_TRIES`] values are tried on either side of 1.
 const REFINEMENTS: usize = 56;
-/// After so many of them something that still leaves so much of the distance is not it.
+/// A number that after this many steps still leaves the fraction [`HOPELESS`] of the distance is given up.
 const FEW_REFINEMENTS: usize = 14;
 const HOPELESS: f64 = 0.5;
 const FIRST_TRIES: i32 = 8;
 const LARGEST_FACTOR: f64 = 30.0;
 
-/// Numbers of the task that may stand in place of one another.
+/// Numbers of the task that a code may take for one another.
 const PARAMETERS: [&str; 12] = [
     "normal_stiffness",
     "tangential_stiffness",
@@ -64,7 +64,7 @@ impl Task {
     }
 }
 
-/// Numbers that may be exchanged.
+/// Pairs of numbers that a code may exchange.
 const EXCHANGED: [(&str, &str); 3] = [
     ("normal_stiffness", "tangential_stiffness"),
     ("damping_normal", "damping_tangential"),
@@ -80,7 +80,7 @@ enum Act<'a> {
     Set(f64),
 }
 
-/// A mistake at a place.
+/// A mistake at some contacts, or in the run.
 struct Fault<'a> {
     text: String,
     contacts: Range<usize>,
@@ -128,7 +128,7 @@ impl Act<'_> {
     }
 }
 
-/// Numbers of one kind are mistaken for one another.
+/// Returns the kind of a number; only numbers of one kind are taken for one another.
 fn kind(name: &str) -> usize {
     let kinds = ["stiffness", "damping", "friction", "steps"];
     kinds
@@ -152,16 +152,17 @@ const PLACES: [(&str, Range<usize>); 12] = [
     ("between floor and cylinder 3", 5..6),
     ("between top wall and cylinder 1", 6..7),
 ];
-/// Those on one side of the stack.
+/// The places on one side of the stack.
 const ONE_SIDED: [Range<usize>; 4] = [0..1, 1..2, 4..5, 5..6];
-/// Those of more than one contact, and the values that are tried at a single one.
+/// Number of places with more than one contact, which come first, and number of values that are tried at a single
+/// contact.
 const KINDS: usize = 5;
 const AT_SINGLE: usize = 4;
 
-/// All single mistakes without a size of their own.
+/// Returns all single mistakes that need no fitted size.
 fn faults() -> Vec<Fault<'static>> {
     let table = &*TABLE;
-    // What has a name of its own comes before numbers that have the same effect.
+    // A mistake with a name of its own comes before values that have the same effect.
     let mut faults: Vec<Fault> = table
         .loading
         .iter()
@@ -239,7 +240,7 @@ fn of_quantity(
     }
 }
 
-/// The mistakes that explain all `evidence`, best first.
+/// Returns the mistakes that explain all `evidence`, best first.
 pub(super) fn explanations(evidence: &[Evidence]) -> Vec<String> {
     let mut faults = faults();
     if evidence.iter().any(Evidence::is_symmetric) {
@@ -251,13 +252,13 @@ pub(super) fn explanations(evidence: &[Evidence]) -> Vec<String> {
     best(single.collect())
 }
 
-/// The sizes that explain all of `whole`, fitted to `evidence`.
+/// Fits every number to `evidence`, and returns those that explain all of `whole`.
 pub(super) fn fitted(evidence: &[Evidence], whole: &[Evidence]) -> Vec<String> {
     let sizes = sizes().into_par_iter();
     best(sizes.filter_map(|own| own.fit(evidence, whole)).collect())
 }
 
-/// The best of some mistakes with their distances.
+/// Returns the best of some mistakes, which come with their distances.
 fn best(mut fitting: Vec<(f64, String)>) -> Vec<String> {
     fitting.sort_by(|left, right| left.0.total_cmp(&right.0));
     let best = fitting.first().map_or(0.0, |best| best.0);
@@ -266,7 +267,7 @@ fn best(mut fitting: Vec<(f64, String)>) -> Vec<String> {
         .take_while(|(rest, _)| *rest <= AS_WELL * best.max(0.1 * ROUNDING));
     let mut causes: Vec<String> = Vec::new();
     for (_, text) in as_good {
-        // Where it makes no difference at which contacts, those of the first place that fits are enough.
+        // If the place makes no difference, the first one that fits is enough.
         let told = |other: &String| stripped(other) == stripped(&text);
         if causes.len() < MOST_CAUSES && !causes.iter().any(told) {
             causes.push(text);
@@ -275,12 +276,12 @@ fn best(mut fitting: Vec<(f64, String)>) -> Vec<String> {
     causes
 }
 
-/// Whether a mistake is one of contacts.
+/// Whether the text of a mistake places it at contacts.
 pub(super) fn is_of_contacts(text: &str) -> bool {
     PLACES.iter().any(|(at, _)| text.contains(at))
 }
 
-/// A text without its place.
+/// Returns a text without its place.
 fn stripped(text: &str) -> String {
     PLACES
         .iter()
@@ -288,7 +289,7 @@ fn stripped(text: &str) -> String {
         .fold(text.to_owned(), |text, (at, _)| text.replace(at, ""))
 }
 
-/// The largest distance of what the fault gives, if it explains all `evidence`.
+/// Returns the largest distance of the twin with the fault, if that explains all `evidence`.
 fn score(evidence: &[Evidence], fault: &Fault) -> Option<f64> {
     let mut worst: f64 = 0.0;
     for own in evidence {
@@ -306,7 +307,7 @@ struct Fitted {
     text: String,
     contacts: Range<usize>,
     fields: Vec<&'static str>,
-    /// The range of a size; a factor where there is none.
+    /// Range of a size; `None` for a factor.
     range: Option<[f64; 2]>,
 }
 
@@ -357,7 +358,7 @@ impl Size {
 impl Fitted {
     fn fault(&self, place: f64) -> Fault<'_> {
         let act = match self.range {
-            // Small sizes are looked at more closely.
+            // The cube samples small sizes more densely.
             Some([from, to]) => Act::Set(from + (to - from) * place * place * place),
             None => Act::Factor((place * LARGEST_FACTOR.ln()).exp()),
         };
@@ -369,9 +370,9 @@ impl Fitted {
         }
     }
 
-    /// The value with which the twin comes nearest to what was found, if that explains it.
+    /// Fits the value with which the twin comes nearest to `evidence`; `None` if that does not explain `whole`.
     fn fit(&self, evidence: &[Evidence], whole: &[Evidence]) -> Option<(f64, String)> {
-        // What is as expected must stay so.
+        // Evidence that is as expected must stay so.
         let (off, right): (Vec<&Evidence>, Vec<&Evidence>) =
             evidence.iter().partition(|own| own.is_off());
         let tried = self.fault(0.3);
@@ -418,7 +419,8 @@ impl Fitted {
     }
 }
 
-/// Where `value`, a part of what it was, is smallest between two places, by the golden section; `None` if it stays large.
+/// Finds the place between `low` and `high` at which `value`, a fraction of the distance before, is smallest, by a
+/// golden-section search; `None` if it stays large.
 fn minimum(value: &dyn Fn(f64) -> f64, mut low: f64, mut high: f64) -> Option<f64> {
     let golden = 0.5 * (5f64.sqrt() - 1.0);
     let (mut left, mut right) = (high - golden * (high - low), low + golden * (high - low));

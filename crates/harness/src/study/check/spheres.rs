@@ -1,4 +1,5 @@
-//! A stack of spheres: what mechanics demands of it, and the same stack seen from elsewhere.
+//! Items on a stack of spheres: the laws of mechanics, the slip onset of the native code, and the onset of the same
+//! stack in other arrangements.
 
 use super::report::{Grade, Item};
 use crate::dem::compress_stack;
@@ -11,11 +12,12 @@ use crate::theory::quasistatic_limit;
 /// Friction and stiffness: soft, so that every convention shows, and below the friction at which symmetry is lost.
 const FRICTION: f64 = 0.2;
 const STIFFNESS: f64 = 100.0;
-/// Wall speed in units of the displacement by which the speeds of measurements are measured.
+/// Wall speed in the unit of planned measurements ([`planned_protocol`]).
 const SPEED: f64 = 4e-3;
 const TIME_STEP: f64 = 0.1;
 
-/// A sphere on three under this `convention`, lying and numbered in this way.
+/// Returns the case of a sphere on three under this `convention`, in this `arrangement`; `None` where it does not
+/// yield.
 pub(super) fn case(convention: ContactConvention, arrangement: Arrangement) -> Option<Case> {
     let stack = Stack {
         stiffness_ratio: Stack::usual_stiffness_ratio(convention.law.power),
@@ -33,8 +35,8 @@ pub(super) fn case(convention: ContactConvention, arrangement: Arrangement) -> O
     })
 }
 
-/// Ways of looking at the same stack, with the name of what they show: turned by an irrational part of a circle, mirrored, and
-/// numbered otherwise, with the sphere on top neither first nor last.
+/// Other arrangements of the same stack, each with the name of its item: turned by an irrational fraction of a
+/// circle, mirrored, and renumbered so that the sphere on top is neither first nor last.
 pub(super) const OTHERS: [(&str, Arrangement); 3] = [
     (
         "spheres turned by 1 rad",
@@ -66,7 +68,8 @@ const USUAL: Arrangement = Arrangement {
 const MECHANICS: &str = "spheres: mechanics";
 const TWIN: &str = "spheres: slip onset";
 
-/// The items on the `series` of `case`; `is_declared` if the whole convention is.
+/// Returns the items on the `series` of `case`. `is_declared` says whether the manifest declares the whole
+/// convention.
 pub(super) fn items(series: &Series, case: &Case, is_declared: bool) -> [Item; 2] {
     let grade = Grade::Consistency;
     let mechanics = Mechanics::read(series, case);
@@ -91,7 +94,7 @@ pub(super) fn items(series: &Series, case: &Case, is_declared: bool) -> [Item; 2
     [mechanics, beside_twin(series, case, is_declared)]
 }
 
-/// The slip onset beside that of the native code under the same convention.
+/// Compares the slip onset with that of the native code under the same convention.
 fn beside_twin(series: &Series, case: &Case, is_declared: bool) -> Item {
     let grade = Grade::Consistency;
     if !is_declared {
@@ -132,7 +135,8 @@ fn beside_twin(series: &Series, case: &Case, is_declared: bool) -> Item {
     }
 }
 
-/// The item `name` on the `series` of `case`, which is the stack of another series seen from elsewhere.
+/// Returns the item `name`, which compares the onset in `series` with that in `usual_series`: both belong to the same
+/// stack, in different arrangements.
 pub(super) fn seen_from_elsewhere(
     name: &'static str,
     (series, case): (&Series, &Case),
@@ -143,8 +147,8 @@ pub(super) fn seen_from_elsewhere(
     let (Some(found), Some(expected)) = onsets else {
         return Item::not_tested(grade, name, "a run shows no onset");
     };
-    // Every step may round a coordinate between 2 and 4 to the same side, in both runs; the load changes by its stiffness
-    // against the wall and the floor, and with the slope at which the onset is read.
+    // In both runs every step may round a coordinate between 2 and 4 to the same side. That changes the load by the
+    // stiffness against the wall and the floor, and by the slope at which the onset is read.
     let steps = case.protocol.schedule().total_steps() as f64;
     let rounding =
         2.0 * 2.0 * f64::EPSILON * steps * case.stack.stiffness * sensitivity(series, case);

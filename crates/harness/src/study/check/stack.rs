@@ -1,4 +1,5 @@
-//! The stack at rest and under the wall: what mechanics demands of its series, and the series of the native DEM.
+//! Items on the stack at rest and under the wall: the laws of mechanics in its series, and the comparison with the
+//! native DEM.
 
 use super::evidence::Evidence;
 use super::factor::{is_about, of_factor, of_friction};
@@ -8,12 +9,12 @@ use crate::series::{
     ENOUGH_DIGITS, FloorContact, Law, Mechanics, Sample, Series, YieldEstimates, most_digits,
 };
 
-/// Relative deviation of the weight from which on it is not that of the stack: what ringing leaves is far smaller.
+/// Largest relative deviation of the weight on the floor from that of the stack. What ringing leaves is far smaller.
 const SAME_WEIGHT: f64 = 1e-3;
-/// Relative deviation of the friction of a sliding floor; codes cap the force at μ n itself.
+/// Largest relative deviation of the friction of a sliding floor. Codes cap the force at μ n itself.
 const SAME_FRICTION: f64 = 1e-6;
 
-/// The items on the `series` of `case`, beside its twins.
+/// Returns the items on the `series` of `case`; `own` compares it with its twins.
 pub(super) fn items(series: &Series, case: &Case, own: &[Evidence]) -> Vec<Item> {
     let rows = series.samples();
     let mut items = vec![weight(rows, case), start_of_wall(rows, case)];
@@ -30,7 +31,7 @@ pub(super) fn items(series: &Series, case: &Case, own: &[Evidence]) -> Vec<Item>
     items
 }
 
-/// An item that fails; its causes are found for all items together where it has none of its own.
+/// Returns an item that fails. Causes that are found for all items together replace its own.
 fn failed(name: &'static str, expected: String, found: String, causes: Vec<String>) -> Item {
     Item::failed(Grade::Consistency, name, expected, found, causes)
 }
@@ -41,7 +42,7 @@ fn passed(name: &'static str, found: impl Into<String>) -> Item {
 
 const WEIGHT: &str = "weight on the floor";
 
-/// The floor bears three weights before the wall moves.
+/// Checks that the floor bears three weights before the wall moves.
 fn weight(rows: &[Sample], case: &Case) -> Item {
     let weight = case.stack.epsilon();
     let Some(first) = rows.first() else {
@@ -75,11 +76,11 @@ fn weight(rows: &[Sample], case: &Case) -> Item {
 
 const START: &str = "wall force at the start";
 
-/// The wall just touches at step 0.
+/// Checks that the wall just touches at step 0.
 fn start_of_wall(rows: &[Sample], case: &Case) -> Item {
     let weight = case.stack.epsilon();
     let force = rows.first().map_or(0.0, |first| first.wall_force) / weight;
-    // Codes in which surfaces that just touch are a contact damp there.
+    // Codes in which surfaces that just touch are a contact have a damping force there.
     let law = case.convention.law(case.stack.stiffness_ratio);
     let damping = law.damping_normal * case.protocol.wall_speed / weight;
     if force.abs() <= damping + SAME_WEIGHT {
@@ -107,7 +108,7 @@ fn name_of(law: Law) -> &'static str {
     }
 }
 
-/// The laws of mechanics, in every row before the floor slides.
+/// Checks the laws of mechanics in every row before the floor slides.
 fn laws(series: &Series, case: &Case) -> Vec<Item> {
     let mechanics = Mechanics::read(series, case);
     let each = mechanics.0.iter().map(|(law, deviation)| {
@@ -130,7 +131,7 @@ fn laws(series: &Series, case: &Case) -> Vec<Item> {
 
 const FRICTION: &str = "friction of the floor";
 
-/// The floor slides at its friction.
+/// Checks that the floor slides at its friction.
 fn friction(series: &Series, case: &Case) -> Item {
     let asked = case.stack.floor_friction;
     let Some(found) = YieldEstimates::read(series, case).sliding_friction else {
@@ -160,7 +161,7 @@ fn digits_of(series: &Series, case: &Case) -> u32 {
 
 const PATH: &str = "loading path";
 
-/// The series beside that of the twin, the native DEM.
+/// Compares the series with that of the twin, which is the native DEM.
 fn path(own: &[Evidence]) -> Item {
     let distance = own[0].before;
     let Some(own) = own.iter().find(|own| own.is_off()) else {
@@ -180,7 +181,7 @@ fn path(own: &[Evidence]) -> Item {
 
 const DIGITS: &str = "digits";
 
-/// Few digits cost uncertainty, not truth.
+/// Remarks on few digits, which add uncertainty but are no mistake.
 fn digits(series: &Series, case: &Case) -> Item {
     let digits = digits_of(series, case);
     if digits >= ENOUGH_DIGITS {
@@ -196,7 +197,8 @@ fn digits(series: &Series, case: &Case) -> Item {
     )
 }
 
-/// What its own forces say of the weight and of the wall, where they are not as asked.
+/// Says where the weight that is borne and the movement of the wall, both judged by the code's own forces, are not as
+/// asked.
 pub(super) fn in_the_stack(series: &Series, case: &Case) -> Vec<String> {
     const SAME: f64 = 1e-3;
     let rows = series.samples();
@@ -252,7 +254,8 @@ pub(super) fn in_the_stack(series: &Series, case: &Case) -> Vec<String> {
     told
 }
 
-/// What the stack at rest shows without computing anything.
+/// Recognises gross mistakes without computing anything: no gravity or one that points upwards, a stack that fell or
+/// collapsed, a wall that never presses, single precision.
 pub(super) fn at_first_sight(series: &Series, stack: &Stack) -> Option<String> {
     let rows = series.samples();
     let first = rows.first()?;

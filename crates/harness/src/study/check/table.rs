@@ -4,7 +4,7 @@ use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::sync::LazyLock;
 
-/// Mistakes that fit as well as the best one are named too, but not more than these.
+/// Largest number of mistakes that are named: the best one and those that fit as well.
 pub(super) const MOST_CAUSES: usize = 3;
 
 /// The entries of mistakes.toml.
@@ -40,7 +40,7 @@ pub(super) struct Group {
     pub columns: Vec<String>,
 }
 
-/// What stands in place of a number.
+/// A wrong value of a number x: `factor` × `function`(x)^`power` × `times`^`exponent`, for names that contain `only`.
 #[derive(Debug, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub(super) struct Value {
@@ -95,13 +95,13 @@ pub(super) struct Size {
     pub contact: bool,
 }
 
-/// The table.
 pub(super) static TABLE: LazyLock<Table> = LazyLock::new(|| {
     toml::from_str(include_str!("mistakes.toml")).expect("mistakes.toml is tested")
 });
 
 impl Value {
-    /// The value in place of `asked`, where a friction beside it is `other` and a number of the task `number`.
+    /// Returns the value in place of `asked`. `other` is the friction of the other contacts, and `number` gives
+    /// numbers of the task by name.
     pub fn of(&self, asked: f64, other: f64, number: impl Fn(&str) -> f64) -> f64 {
         let based = match self.function.as_str() {
             "tan" => libm::tan(asked),
@@ -132,7 +132,7 @@ impl Value {
     }
 }
 
-/// The meanings of those values that `found` is in place of `asked`, a number of that `name`.
+/// Returns the meanings of the values that give `found` in place of `asked`, a number called `name`.
 pub(super) fn meanings(
     name: &str,
     found: f64,
@@ -154,7 +154,7 @@ pub(super) fn meanings(
     texts
 }
 
-/// The meaning of the value of a property that was measured, if it has one.
+/// Returns the meanings of the measured value `found` of a property.
 pub(super) fn of_property(property: &str, found: f64) -> Vec<String> {
     const DIGITS: f64 = 2e-3;
     let own = TABLE.property.iter().filter(|own| own.of == property);
@@ -162,7 +162,7 @@ pub(super) fn of_property(property: &str, found: f64) -> Vec<String> {
     fitting.map(|own| own.says.clone()).collect()
 }
 
-/// Usual causes of an item that failed.
+/// Returns the usual causes of an item that failed.
 pub(super) fn usual(item: &str) -> String {
     let own = TABLE
         .usual

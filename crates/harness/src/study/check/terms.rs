@@ -1,14 +1,14 @@
-//! The terms of which an equation of motion consists, or should not, and the conditions under which it may fail.
+//! The terms that an equation of motion has, or has wrongly, and the conditions under which it may fail.
 
 use crate::model::InitialMotion;
 use crate::series::BodyRow;
 
-/// A number in an equation, by axis: 0 and 1, and 2 for what turns.
+/// A term of an equation, by axis: 0 and 1 for translation, 2 for rotation.
 pub(super) struct Term {
     pub name: &'static str,
     /// Whether the law has it.
     pub is_part: bool,
-    /// What it is called where it does not belong.
+    /// What it means where the law does not have it.
     pub called: &'static str,
     pub value: fn(&Moment, usize) -> f64,
 }
@@ -32,21 +32,21 @@ pub(super) struct Moment {
 /// The contact of a micro-test at one step, by the law.
 #[derive(Clone, Copy, Default)]
 pub(super) struct Touch {
-    /// That of the first body.
+    /// Normal towards the first body.
     pub normal: [f64; 2],
     pub pressing: f64,
     pub tangential: f64,
-    /// The springs' parts of both.
+    /// The springs' parts of `pressing` and `tangential`.
     pub elastic: f64,
     pub sheared: f64,
     /// Negative where the surfaces are apart.
     pub overlap: f64,
     pub separation: f64,
     pub sliding: f64,
-    /// Angles by which both surfaces have turned, the way of the centres along the tangent, and that by which the surfaces
-    /// have approached, since the beginning.
+    /// Since the beginning: the angles by which both surfaces have turned, the path of the centres along the tangent,
+    /// and the distance by which the surfaces have approached.
     pub ways: [f64; 4],
-    /// Normal and tangential force of the step before, less those of this one.
+    /// Normal and tangential force of the step before, minus those of this one.
     pub late: [f64; 2],
     pub sheared_before: f64,
     pub first_overlap: f64,
@@ -63,34 +63,34 @@ impl Moment {
         self.sign * [-y, x][axis]
     }
 
-    /// The position that was asked for at step 0.
+    /// Returns the position that the task asks for at step 0.
     pub fn place(&self, axis: usize) -> f64 {
         [self.asked.x, self.asked.y][axis]
     }
 
-    /// The velocity that was asked for at step 0.
+    /// Returns the velocity that the task asks for at step 0.
     pub fn asked_rate(&self, axis: usize) -> f64 {
         [self.asked.vx, self.asked.vy, self.asked.spin][axis]
     }
 
-    /// Displacement towards `side` of one axis, 0 along the other.
+    /// Returns the displacement along the axis `along` towards `side`; 0 for any other `axis`.
     fn moved(&self, axis: usize, along: usize, side: f64) -> f64 {
         on(axis, along) * (side * (self.now.position[along] - self.place(along))).max(0.0)
     }
 
-    /// The change of a velocity in this step.
+    /// Returns the change of a velocity by the load in this step.
     pub fn kick(&self, axis: usize) -> f64 {
         load(&self.now, axis) / self.inertia[axis] * self.time_step
     }
 
-    /// The same in the step before.
+    /// Returns the change of a velocity by the load in the step before.
     fn kick_before(&self, axis: usize) -> f64 {
         self.before.map_or(0.0, |before| {
             load(&before, axis) / self.inertia[axis] * self.time_step
         })
     }
 
-    /// The change of a velocity since the step before.
+    /// Returns the change of a velocity since the step before.
     fn faster(&self, axis: usize) -> f64 {
         self.before
             .map_or(0.0, |before| rate(&self.now, axis) - rate(&before, axis))
@@ -258,7 +258,7 @@ pub(super) static START: [Term; 3] = terms! {
     "the velocity in the task" => |m, axis| m.asked_rate(axis);
 };
 
-/// In words, and whether it is so.
+/// A condition in words, and its test.
 type Condition = (&'static str, fn(&Moment) -> bool);
 
 /// Conditions under which an equation may fail.

@@ -15,12 +15,12 @@ pub(super) struct State {
     pub trial: f64,
 }
 
-/// A contact that is closed, at one moment.
+/// A closed contact at one moment.
 pub(super) struct Touching {
     pub overlap: f64,
     pub separation: f64,
     pub sliding: f64,
-    /// Velocity of the surfaces by the spins.
+    /// Velocity of the surfaces due to the spins.
     pub turning: f64,
     pub normal: [f64; 2],
     pub time_step: f64,
@@ -28,7 +28,7 @@ pub(super) struct Touching {
 }
 
 impl Touching {
-    /// The forces, and the spring as they leave it.
+    /// Computes the forces, and the spring that they leave, and stores both in `state`.
     pub fn press(&self, law: &OfContact, convention: &ContactConvention, state: &mut State) {
         let overlap = self.overlap;
         let powered = if law.exponent == 1.0 {
@@ -100,7 +100,7 @@ impl Touching {
         };
     }
 
-    /// The force that μ is multiplied with.
+    /// Returns the force that μ multiplies.
     fn limited(&self, law: &OfContact, elastic: f64, pressing: f64) -> f64 {
         if law.limit_of_weight != 0.0 {
             self.weight
@@ -113,7 +113,7 @@ impl Touching {
         }
     }
 
-    /// The length of the spring of a contact that slides.
+    /// Returns the length of the spring of a contact that slides.
     fn slid(
         &self,
         law: &OfContact,
@@ -141,7 +141,7 @@ impl Touching {
         let cosine = before[0] * x + before[1] * y;
         let sine = before[0] * y - before[1] * x;
         match convention.history_update {
-            // One that nothing turns is a vector: the twin is not asked to make it (`Twin::makes`).
+            // A spring that nothing turns is a vector, which the twin never runs (`Twin::makes`).
             HistoryUpdate::Rotated | HistoryUpdate::Fixed => 1.0,
             HistoryUpdate::Projected => cosine,
             HistoryUpdate::Linearised => cosine + sine * sine,

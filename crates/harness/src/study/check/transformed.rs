@@ -1,12 +1,12 @@
-//! What may be written in place of the right values of a column: changes, sums, means, absolute values of them.
+//! Columns that hold a function of the right values: changes, sums, means or absolute values.
 
 use super::written::Written;
 
-/// Decimals from which on rounding is too small to be found.
+/// Number of decimals from which rounding is too small to be found.
 const MOST_DECIMALS: i32 = 9;
 
 impl Written<'_> {
-    /// Changes, sums, means, absolute values of the right column.
+    /// Says which function of the right values a column holds: a change, sum, mean, absolute value or the like.
     pub(super) fn transformed(&self, column: usize) -> Option<String> {
         let steps: Vec<f64> = self
             .own
@@ -131,7 +131,7 @@ impl Written<'_> {
             .or_else(|| self.smoothed(column, &steps))
     }
 
-    /// A mean that forgets the rows before by and by.
+    /// Detects exponential smoothing: a fixed fraction of the right value, and the rest of the row before.
     fn smoothed(&self, column: usize, steps: &[f64]) -> Option<String> {
         let found = |row: usize| self.own.found[row].1[column];
         let share = |row: usize| {
@@ -152,7 +152,7 @@ impl Written<'_> {
     }
 }
 
-/// Where a cylinder is before anything has moved; not a number if the column has no position.
+/// Returns the initial coordinate that belongs to a column of positions; NaN for other columns.
 fn initial_position(column: &str) -> f64 {
     match column {
         "x1" => 0.0,

@@ -1,7 +1,7 @@
-//! A DEM of the stack and of the micro-tests in which every number and every part of the law can be a wrong one.
+//! A DEM of the stack and of the micro-tests in which every number and every part of the law can be wrong.
 //!
-//! Without a fault it is the native DEM, to rounding. What can be wrong is a field of [`OfContact`] or [`OfRun`], which
-//! mistakes.toml sets by name.
+//! Without a fault it equals the native DEM, to rounding. Whatever can be wrong is a field of [`OfContact`] or
+//! [`OfRun`], which mistakes.toml sets by name.
 
 use super::numbers::{OfContact, OfRun};
 use super::touching::{State, Touching};
@@ -10,7 +10,7 @@ use crate::model::{
 };
 use crate::series::BodyRow;
 
-/// Steps of a preparation that nobody waits for.
+/// Longest preparation that is run, in steps.
 const MOST_STEPS: f64 = 2e4;
 
 /// Bodies of each contact, in the order in which they are evaluated: pairs, then the floor, then the top wall.
@@ -34,11 +34,12 @@ pub(super) const OF_BODY: [&str; 9] = ["x", "y", "theta", "vx", "vy", "spin", "f
 pub(super) const PER_CONTACT: usize = 6;
 pub(super) const WIDTH: usize = 3 * OF_BODY.len() + CONTACTS.len() * PER_CONTACT;
 
-/// All numbers of a step: of the bodies, then of every contact its normal and tangential force, the force of its normal
-/// spring, its overlap, and the length of its tangential spring.
+/// All numbers of a step: those of the bodies, then of every contact its normal and tangential force, the force of
+/// its normal spring, its overlap, the length of its tangential spring, and its tangential force before it is
+/// limited.
 pub(super) type Row = [f64; WIDTH];
 
-/// The numbers of a contact in a row.
+/// Returns the numbers of a contact in a row.
 pub(super) fn cells(row: &Row, contact: usize) -> [f64; PER_CONTACT] {
     let first = 3 * OF_BODY.len() + contact * PER_CONTACT;
     std::array::from_fn(|index| row[first + index])
@@ -52,14 +53,14 @@ struct Body {
     before: [f64; 3],
 }
 
-/// What is run.
+/// What the twin runs.
 #[derive(Debug, Clone)]
 enum Plan {
     Stack(Schedule),
     Motion(ContactTest),
 }
 
-/// A run that may be wrong.
+/// A run that may have faults.
 #[derive(Debug, Clone)]
 pub(super) struct Twin {
     /// The law of each of [`CONTACTS`].
@@ -71,7 +72,7 @@ pub(super) struct Twin {
     plan: Plan,
     bodies: Vec<Body>,
     states: [State; 9],
-    /// The spring that all contacts of a kind share, where they do.
+    /// The tangential spring that all contacts of a kind share, if they do.
     shared: [f64; 3],
     wall: f64,
     wall_speed: f64,
@@ -88,7 +89,7 @@ fn contact(law: &ContactLaw, friction: f64) -> OfContact {
 }
 
 impl Twin {
-    /// Whether it can run under a convention: its springs are linear, and turn with their contacts.
+    /// Whether the twin can run a convention: its springs must be linear, and turn with their contacts.
     pub fn makes(convention: &ContactConvention) -> bool {
         convention.law.is_linear() && convention.history_update.turns()
     }
@@ -125,7 +126,7 @@ impl Twin {
         }
     }
 
-    /// The stack of `case`, without a fault.
+    /// Returns the twin of the stack of `case`, without a fault.
     pub fn of_stack(case: &Case) -> Self {
         let schedule = case.protocol.schedule();
         let stack = &case.stack;
@@ -143,7 +144,7 @@ impl Twin {
         twin
     }
 
-    /// A micro-test, without a fault.
+    /// Returns the twin of a micro-test, without a fault.
     pub fn of_motion(test: &ContactTest) -> Self {
         let law = (test.convention, test.stiffness_ratio);
         let frictions = [test.cylinder_friction, test.floor_friction];
@@ -153,7 +154,7 @@ impl Twin {
         twin
     }
 
-    /// Runs, and gives every step of the compression or of the motion to `watch`, until that has enough.
+    /// Runs, and passes every step of the compression or of the motion to `watch`, until that returns `false`.
     pub fn run(&mut self, mut watch: impl FnMut(u64, &Row) -> bool) {
         match self.plan.clone() {
             Plan::Stack(schedule) => {
@@ -194,7 +195,8 @@ impl Twin {
         }
     }
 
-    /// The forces of the law at the positions and velocities that a code has written, and the springs as they leave them.
+    /// Computes the forces of the law at the positions and velocities that a code has written, and updates the
+    /// springs.
     pub fn forces_at(&mut self, written: &[BodyRow; 2], wall: f64) -> Row {
         let bodies = written.iter().map(|own| Body {
             at: [own.position[0], own.position[1], 0.0],
@@ -207,7 +209,7 @@ impl Twin {
         self.row()
     }
 
-    /// Takes the length of the tangential spring of the first body over from the force that a code has written, where the
+    /// Sets the length of the tangential springs of the first body from the force that a code has written, where the
     /// contact sticks.
     pub fn follow(&mut self, written: &BodyRow) {
         // The first body of a pair is the second of its contact.
@@ -248,7 +250,7 @@ impl Twin {
         self.run.gravity = asked * self.run.gravity_in_compression;
     }
 
-    /// The part of gravity that is there at a step.
+    /// Returns the fraction of gravity at a step of the preparation.
     fn ramp(&self, step: u64) -> f64 {
         let whole = if self.run.ramp_shape > 8.0 {
             self.run.rest_steps

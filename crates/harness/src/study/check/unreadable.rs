@@ -1,23 +1,23 @@
-//! Runs without a usable result: what their failure says.
+//! Explanations of runs without a usable result.
 
 use super::factor::{is_about, of_factor};
 use crate::code::{Failure, FailureKind};
 use crate::model::Case;
-use crate::series::{Series, SeriesError};
+use crate::series::{Sample, SeriesError};
 use std::fs;
 use std::path::Path;
 
-/// Most files of a run directory that are named.
+/// Largest number of files of a run directory that are named.
 const MOST_NAMED: usize = 8;
 
-/// A failed run as expected, found and causes.
+/// What a failed run should have given, what was found, and the causes that fit.
 pub(super) struct Unreadable {
     pub expected: String,
     pub found: String,
     pub causes: Vec<String>,
 }
 
-/// What `failure` of the stack `case` says; of a micro-test where there is no case.
+/// Explains the `failure` of the run of `case`, or of a micro-test where there is no case.
 pub(super) fn explained(failure: &Failure, case: Option<&Case>) -> Unreadable {
     let causes = match &failure.kind {
         FailureKind::Series(error) => of_result(error, failure, case),
@@ -70,7 +70,7 @@ fn of_result(error: &SeriesError, failure: &Failure, case: Option<&Case>) -> Vec
                     .to_owned(),
             ]
         }
-        (SeriesError::Columns { found, .. }, Some(_)) => of_columns(found),
+        (SeriesError::Columns { found, .. }, Some(case)) => of_columns(found, case.stack.bodies),
         (SeriesError::Garbled { row, .. }, _) => vec![format!(
             "row {row} is not numbers separated by commas: a message of the program among the rows, a row that is cut off \
              because the file was not closed, a comma for the decimal point, or another separator"
@@ -81,7 +81,7 @@ fn of_result(error: &SeriesError, failure: &Failure, case: Option<&Case>) -> Vec
     }
 }
 
-/// The result is not there: what is there instead.
+/// Explains a missing result by naming the files that the run has left instead.
 fn of_absent(failure: &Failure) -> Vec<String> {
     let own = |directory: &Path| {
         let names = fs::read_dir(directory).into_iter().flatten().flatten();
@@ -103,19 +103,17 @@ fn of_absent(failure: &Failure) -> Vec<String> {
     )]
 }
 
-/// The header is another one: which columns are missing, which are unknown, or whether the order is another one.
-fn of_columns(found: &str) -> Vec<String> {
+/// Explains a wrong header of the series of a stack with this many bodies on the floor: columns that are missing, columns
+/// that are unknown, or a different order.
+fn of_columns(found: &str, bodies: u8) -> Vec<String> {
+    let expected = Sample::columns(bodies).iter().map(|column| column.name);
+    let expected: Vec<&str> = expected.collect();
     let found: Vec<&str> = found.split(',').map(str::trim).collect();
     let list = |names: Vec<&str>| names.join(", ");
-    let missing = Series::COLUMNS
-        .into_iter()
-        .filter(|name| !found.contains(name));
-    let missing: Vec<&str> = missing.collect();
-    let unknown = found
-        .iter()
-        .copied()
-        .filter(|name| !Series::COLUMNS.contains(name));
-    let unknown: Vec<&str> = unknown.collect();
+    let missing = expected.iter().copied();
+    let missing: Vec<&str> = missing.filter(|name| !found.contains(name)).collect();
+    let unknown = found.iter().copied();
+    let unknown: Vec<&str> = unknown.filter(|name| !expected.contains(name)).collect();
     let mut causes = Vec::new();
     if !missing.is_empty() {
         causes.push(format!("columns are missing: {}", list(missing)));

@@ -1,4 +1,4 @@
-//! Mistakes in what is written: the code computes rightly, and a column is something else that its twin knows.
+//! Mistakes in writing: the code computes correctly, but a column holds something else that its twin knows.
 
 use super::evidence::{Column, Evidence, ROUNDING, of_contact};
 use super::table::{MOST_CAUSES, TABLE, meanings};
@@ -11,17 +11,18 @@ const MIRRORED: [&str; 8] = [
 /// Orders in which the bodies may be written.
 const ORDERS: [[usize; 3]; 5] = [[0, 2, 1], [1, 0, 2], [2, 1, 0], [1, 2, 0], [2, 0, 1]];
 
-/// A stack whose rows are compared with those of its twin, which are there for every step.
+/// A stack whose rows are compared with those of its twin, which are known at every step.
 pub(super) struct Written<'a> {
     pub(super) own: &'a Evidence,
     dense: Vec<Row>,
     weight: f64,
     pub(super) time_step: f64,
-    /// Steps before and between the rows.
+    /// Smallest number of steps between two rows.
     every: u64,
 }
 
-/// The columns that are not as expected, and what explains them if mistakes in what is written explain them all.
+/// Returns the columns that are not as expected, with what they hold; empty unless at most [`MOST_CAUSES`] mistakes
+/// in writing explain them all.
 pub(super) fn explanations(own: &Evidence) -> Vec<String> {
     let run = own.twin.run;
     let steps: Vec<u64> = own.found.iter().map(|(step, _)| *step).collect();
@@ -66,7 +67,7 @@ pub(super) fn explanations(own: &Evidence) -> Vec<String> {
         .collect()
 }
 
-/// A number of the twin in words.
+/// Names a number of the twin.
 fn title(place: usize) -> String {
     const NUMBERS: [&str; PER_CONTACT] = [
         "normal force",
@@ -106,7 +107,7 @@ fn title(place: usize) -> String {
 }
 
 impl Written<'_> {
-    /// Whether some values explain a column, given by step.
+    /// Whether values given by step explain a column.
     pub(super) fn explains(&self, column: usize, value: &dyn Fn(f64) -> f64) -> bool {
         let allowed = self.own.allowed() * self.own.columns[column].scale;
         let mut rows = self.own.found.iter();
@@ -117,7 +118,8 @@ impl Written<'_> {
         self.at(step, |row| self.own.columns[column].of(row))
     }
 
-    /// A number at a step, which may lie between two of them; before the first one the stack is at rest.
+    /// Returns a number of the twin at a `step`, which may lie between two of them; before the first one the stack is
+    /// at rest.
     fn at(&self, step: f64, value: impl Fn(&Row) -> f64) -> f64 {
         let last = self.dense.len() - 1;
         let place = step.clamp(0.0, last as f64);
@@ -130,7 +132,7 @@ impl Written<'_> {
         one + share * (two - one)
     }
 
-    /// Whether the columns are those of other bodies, or of a mirror.
+    /// Detects columns that are those of other bodies, or of a mirror image.
     fn reordered(&self) -> Option<String> {
         let columns = 0..self.own.columns.len();
         let explains = |of: &dyn Fn(&Column) -> Column| {
@@ -186,7 +188,7 @@ impl Written<'_> {
         ))
     }
 
-    /// What stands in a column, in words.
+    /// Says what a column holds.
     fn relation(&self, column: usize) -> Option<String> {
         let own = |step: f64| self.right(column, step);
         let zero = |_: f64| 0.0;
@@ -208,7 +210,7 @@ impl Written<'_> {
         tests.iter().find_map(|test| test())
     }
 
-    /// The factor between a column and some values, if that is all.
+    /// Fits the factor between a column and some values; `None` if they differ by more than that.
     pub(super) fn factor(&self, column: usize, value: &dyn Fn(f64) -> f64) -> Option<f64> {
         let mut sums = [0.0; 2];
         for (step, values) in &self.own.found {
@@ -230,7 +232,7 @@ impl Written<'_> {
             .then_some(offset)
     }
 
-    /// The column belongs to another step.
+    /// Detects a column that belongs to another step.
     fn late(&self, column: usize) -> Option<String> {
         let every = self.every as f64;
         let lags = [
@@ -264,7 +266,7 @@ impl Written<'_> {
         })
     }
 
-    /// Another number of the twin, or the sum of two.
+    /// Detects a column that holds a multiple of another number of the twin, or of the sum of two.
     fn another(&self, column: usize) -> Option<String> {
         let known = self
             .own
@@ -316,7 +318,7 @@ impl Written<'_> {
         })
     }
 
-    /// The right value and a part of another number.
+    /// Detects a column that holds the right value plus a multiple of another number.
     fn with_another(&self, column: usize) -> Option<String> {
         let scale = self.own.columns[column].scale;
         let found = (0..WIDTH).find_map(|place| {
@@ -407,7 +409,7 @@ impl Written<'_> {
         }
     }
 
-    /// The columns in words.
+    /// Names the columns.
     fn subject(&self, names: &[&str]) -> String {
         let there = |name: &&str| self.own.columns.iter().any(|column| column.name == *name);
         let moves = |name: &&str| {

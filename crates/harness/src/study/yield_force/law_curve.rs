@@ -5,7 +5,7 @@ use crate::model::{ContactConvention, Stack};
 use crate::theory::quasistatic_limit;
 use rayon::iter::{IntoParallelIterator, ParallelIterator};
 
-/// Range of the floor frictions of a curve: less slides under its own weight in some law.
+/// Range of floor frictions of a curve. With less friction a stack slides under its own weight under some law.
 const FRICTIONS: (f64, f64) = (0.105, 0.5);
 /// Number of intervals of a curve.
 const INTERVALS: u32 = 60;
@@ -13,7 +13,7 @@ const INTERVALS: u32 = 60;
 /// The exact forces over the floor friction under the convention of a code, at one stiffness.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LawCurve {
-    /// The code, the first of those that have this limit.
+    /// The first code that has this limit.
     pub code: Code,
     /// K_p r^p/(m g).
     pub stiffness: f64,
@@ -21,8 +21,8 @@ pub struct LawCurve {
     pub points: Vec<(f64, Option<f64>, Option<f64>)>,
 }
 
-/// Whether two conventions have the same limit on a path of loading: damping does not enter it, and springs that are
-/// rescaled on unloading are those that are not.
+/// Whether two conventions have the same limit under loading, where damping plays no part, and springs that are
+/// rescaled on unloading are the same as those that are not.
 fn has_limit_of(one: &ContactConvention, other: &ContactConvention) -> bool {
     let law = |convention: &ContactConvention| {
         let law = convention.law;
@@ -30,10 +30,11 @@ fn has_limit_of(one: &ContactConvention, other: &ContactConvention) -> bool {
         let floor = (law.floor_ratio, law.floor_kappa);
         (law.power, history, floor, law.tangential_stiffening)
     };
-    one.arms == other.arms && law(one) == law(other)
+    let turns = |convention: &ContactConvention| convention.history_update.turns();
+    one.arms == other.arms && turns(one) == turns(other) && law(one) == law(other)
 }
 
-/// The codes of `all` whose limits differ, the first of each kind.
+/// For every different limit, the first of the codes in `all` that has it.
 fn different_limits(all: &[(Code, ContactConvention)]) -> Vec<(Code, ContactConvention)> {
     let mut first: Vec<(Code, ContactConvention)> = Vec::new();
     for own in all {
@@ -44,7 +45,8 @@ fn different_limits(all: &[(Code, ContactConvention)]) -> Vec<(Code, ContactConv
     first
 }
 
-/// The curves of every limit under the conventions of the `codes` at these stiffnesses, κ being the stiffness ratio.
+/// The curve of every different limit under the conventions of `codes`, at each of these stiffnesses and this
+/// stiffness ratio κ.
 pub fn law_curves(
     codes: &[(Code, ContactConvention)],
     stiffnesses: &[f64],
@@ -107,5 +109,12 @@ mod tests {
             "lammps-mindlin-force",
         ];
         assert_eq!(names, expected);
+    }
+
+    #[test]
+    fn a_spring_that_turns_has_a_limit_of_its_own() {
+        let both = [ContactConvention::PAPER, ContactConvention::TURNING];
+        let both = both.map(|convention| (Code::native(), convention));
+        assert_eq!(different_limits(&both), both);
     }
 }

@@ -7,17 +7,17 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 const SMALLEST_TIME_STEP: f64 = 1e-6;
-/// Quasi-static loading ends far below the speed of sound, which is of order 1.
+/// Quasi-static loading requires speeds far below the speed of sound, which is of order 1.
 const FASTEST_WALL: f64 = 0.01;
 /// A little more than the height of the stack.
 const LONGEST_TRAVEL: f64 = 4.0;
 const LONGEST_TIME: f64 = 1e9;
 const MOST_STEPS: f64 = 1e11;
 const MOST_ROWS: u64 = 1_000_000;
-/// Largest relative change of a duration that is rounding alone.
+/// Largest relative change of a duration that counts as rounding.
 const ROUNDING: f64 = 1e-9;
-/// Largest relative change of a duration that is carried out: more than any time step makes of a ramp of 100 with rows
-/// at intervals of 2, which are those that `simulate` chooses.
+/// Largest relative change of a duration that is accepted. It exceeds the effect of any time step on a ramp of 100
+/// with rows at intervals of 2, the values that `simulate` chooses.
 const MOST_CHANGED: f64 = 0.02;
 
 /// The way in which the stack is brought to rest under gravity.
@@ -84,7 +84,7 @@ impl Preparation<f64> {
         }
     }
 
-    /// The durations that are asked for, each with its key, and the steps that they take as in [`Self::steps`].
+    /// The requested durations, each with its key and the steps that it takes by [`Self::steps`].
     fn durations(&self, steps: &PreparationSteps) -> [(&'static str, f64, u64); 2] {
         const RAMP: &str = "protocol.preparation.ramp_time";
         const REST: &str = "protocol.preparation.rest_time";
@@ -105,7 +105,7 @@ impl Preparation<f64> {
         }
     }
 
-    /// Every value in its range, no phase longer than `longest`.
+    /// Checks every value, and that no phase is longer than `longest`.
     fn validate(&self, longest: f64) -> Result<(), InvalidValue> {
         match *self {
             Self::GravityRamp {
@@ -120,7 +120,7 @@ impl Preparation<f64> {
     }
 }
 
-/// `value` without the round-off of a product.
+/// Rounds `value` to ten digits, which removes the round-off of a product.
 fn ten_digits(value: f64) -> f64 {
     format!("{value:.9e}").parse().unwrap_or(value)
 }
@@ -146,7 +146,7 @@ pub struct Sampling<N = f64> {
     pub fine_interval: N,
 }
 
-/// One compression run: prepare, then lower a frictionless wall at constant speed.
+/// One compression run: a preparation, then a frictionless wall that moves down at constant speed.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Protocol {
@@ -170,7 +170,7 @@ pub struct Protocol {
 pub struct Schedule {
     /// Steps of the preparation.
     pub preparation: PreparationSteps,
-    /// Steps of compression.
+    /// Steps of the compression.
     pub compression_steps: u64,
     /// Steps between coarse rows.
     pub coarse_every: u64,
@@ -180,21 +180,21 @@ pub struct Schedule {
     pub fine_every: u64,
     /// Steps at the beginning of the compression during which the wall is faster.
     pub fast_steps: u64,
-    /// Steps after them during which it slows down.
+    /// Further steps during which the wall slows down.
     pub slowing_steps: u64,
-    /// Drop of the wall force that ends the run; 0 for none.
+    /// Drop of the wall force that ends the run, relative to its largest value; 0 for none.
     pub stop_at_drop: f64,
 }
 
 impl Schedule {
-    /// Steps of the compression at which a row is taken, in order, first and last step included.
+    /// Steps of the compression at which a row is taken, in order, including the first and the last step.
     pub fn sampled_steps(&self) -> impl Iterator<Item = u64> + use<> {
         let schedule = *self;
         let next = move |step: &u64| schedule.row_from(step + 1);
         std::iter::successors(self.row_from(0), next)
     }
 
-    /// The first step of the compression from `step` on at which a row is taken.
+    /// Returns the first step of the compression at or after `step` at which a row is taken.
     pub fn row_from(&self, step: u64) -> Option<u64> {
         if step < self.fine_from_step {
             return Some(
@@ -212,7 +212,7 @@ impl Schedule {
         self.fine_from_step / self.coarse_every + fine + 1
     }
 
-    /// All steps of the run, preparation included.
+    /// Number of steps of the run, including the preparation.
     pub fn total_steps(&self) -> u64 {
         self.preparation.total() + self.compression_steps
     }
@@ -255,8 +255,8 @@ impl Protocol {
         }
     }
 
-    /// The durations of the preparation that are carried out otherwise than asked for, because they are no whole
-    /// multiples of the fine interval in whole steps: key, what was asked for, and what is carried out.
+    /// The durations of the preparation that differ from those requested, because these are not whole multiples of the
+    /// fine interval in whole steps: key, requested value, and actual value.
     pub fn changed_durations(&self) -> Vec<(&'static str, f64, f64)> {
         let durations = self.preparation.durations(&self.schedule().preparation);
         let durations = durations
@@ -265,7 +265,7 @@ impl Protocol {
         durations.into_iter().filter(changed).collect()
     }
 
-    /// Refuses durations that a fine interval changes by more than the time step might.
+    /// Refuses durations that rounding to fine intervals changes by more than the time step could.
     fn validate_durations(&self) -> Result<(), InvalidValue> {
         let fine = self.schedule().fine_every as f64 * self.time_step;
         for (key, asked, made) in self.changed_durations() {
@@ -285,7 +285,7 @@ impl Protocol {
         Ok(())
     }
 
-    /// Speed of the wall in the first [`Schedule::fast_steps`].
+    /// Speed of the wall in the first [`Schedule::fast_steps`] steps.
     pub(crate) fn fast_speed(&self) -> f64 {
         let factor = self
             .shortcuts
@@ -293,7 +293,7 @@ impl Protocol {
         factor * self.wall_speed
     }
 
-    /// Speed of the wall during `step` of the compression, which `schedule` counts.
+    /// Speed of the wall during `step` of the compression, as counted by `schedule`.
     pub(crate) fn speed_at(&self, schedule: &Schedule, step: u64) -> f64 {
         let fast = self.fast_speed();
         match step.checked_sub(schedule.fast_steps) {
@@ -306,7 +306,7 @@ impl Protocol {
         }
     }
 
-    /// Distance by which the wall has moved before `step` of the compression.
+    /// Distance that the wall has moved before `step` of the compression.
     pub(crate) fn travel_at(&self, schedule: &Schedule, step: u64) -> f64 {
         let fast = step.min(schedule.fast_steps);
         let slowed = fast + (step - fast).min(schedule.slowing_steps);
@@ -321,7 +321,7 @@ impl Protocol {
         0.5 * (self.fast_speed() + self.wall_speed)
     }
 
-    /// Every value in its range, or the first one that is not.
+    /// Checks every value; the error names the first that is out of range.
     pub fn validate(&self) -> Result<(), InvalidValue> {
         let sampling = &self.sampling;
         within(
@@ -366,8 +366,9 @@ impl Protocol {
             return Err(InvalidValue::new(key, self.wall_speed, accepted));
         }
         let schedule = self.schedule();
-        if schedule.total_steps() as f64 > 2.0 * MOST_STEPS {
-            let accepted = format!("short enough for at most {MOST_STEPS:e} steps in all");
+        let most_in_all = 2.0 * MOST_STEPS;
+        if schedule.total_steps() as f64 > most_in_all {
+            let accepted = format!("short enough for at most {most_in_all:e} steps in all");
             let key = "protocol.sampling.fine_interval";
             return Err(InvalidValue::new(
                 key,

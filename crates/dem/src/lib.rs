@@ -1,7 +1,7 @@
 //! Native DEM of stacked cylinders and spheres.
 //!
-//! [`model`] has the cases, [`dem`] the stepping, and [`series`] the time series with the yield force that is read off
-//! it. [`dem::SOURCE_DIGEST`] says which sources made a number.
+//! [`model`] holds the cases, [`dem`] the time stepping, and [`series`] the time series with the yield force derived
+//! from them. [`dem::SOURCE_DIGEST`] identifies the sources that produced a number.
 
 pub mod dem;
 pub mod model;

@@ -1,8 +1,9 @@
 //! The force at which three stacked elastic frictional cylinders slide apart, without time stepping.
 //!
-//! Two cylinders lie on a rough floor and touch; a third lies on them and is pressed down. The yield force is the load at
-//! which the lower two slide apart (arXiv:2511.06807). It follows from floor friction μ, cylinder friction μ_d, stiffness
-//! 1/ε = k_n r/(m g) and stiffness ratio κ = k_n/k_t, and from what a contact does with its torque and its spring:
+//! Two cylinders lie on a rough floor and touch; a third lies on them and is pressed down. The yield force is the load
+//! at which the lower two slide apart (arXiv:2511.06807). It follows from floor friction μ, cylinder friction μ_d,
+//! stiffness 1/ε = k_n r/(m g) and stiffness ratio κ = k_n/k_t, and from the treatment of torque and spring in a
+//! contact:
 //!
 //! ```
 //! use tristack_theory::model::{ContactConvention, Stack};
@@ -15,11 +16,12 @@
 //! # Ok::<(), tristack_theory::model::InvalidValue>(())
 //! ```
 //!
-//! [`model`] has stack, contact law and convention, [`theory`] the limit and the events on the way to it, [`experiment`]
-//! the same for real cylinders, from Young's modulus to newton. Nothing here reads a file or a command line.
+//! [`model`] holds stack, contact law and convention; [`theory`] the limit and the events on the way to it;
+//! [`experiment`] the same for real cylinders, from Young's modulus to newton. Nothing here reads a file or a command
+//! line.
 //!
-//! Features, none of which is on by default: `schema` derives JSON schemas of everything that a case file spells, `units`
-//! reads quantities as people write them ("1 MPa").
+//! Two features, both off by default: `schema` derives JSON schemas for everything in a case file; `units` parses
+//! quantities as people write them ("1 MPa").
 
 pub mod experiment;
 pub mod model;

@@ -1,4 +1,4 @@
-//! The contact law: a damped normal spring, a damped and capped tangential one.
+//! The contact law: a damped normal spring, and a damped tangential spring with a Coulomb limit.
 
 use super::geometry::{Geometry, Linear, Plane, Tangential};
 use super::real::{Composite, Real, composite};
@@ -16,7 +16,7 @@ pub enum Counterpart {
     Wall,
 }
 
-/// A contact between two bodies as it is at one moment.
+/// A contact between two bodies at one moment.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Contact<R: Real, G: Geometry<R> = Plane> {
     /// The second body.
@@ -25,9 +25,9 @@ pub struct Contact<R: Real, G: Geometry<R> = Plane> {
     pub normal: G::Vector,
     /// Overlap δ.
     pub overlap: R,
-    /// Velocity of the first centre relative to the second body along the normal.
+    /// Velocity along the normal of the first centre relative to the second body.
     pub separation_speed: R,
-    /// The same in the tangent plane: in the plane along t = (−n_y, n_x).
+    /// Relative velocity in the tangent plane; in the plane, its component along t = (−n_y, n_x).
     pub sliding_speed: G::Tangent,
     /// Sum of the angular velocities of the two bodies.
     pub spin: G::Rotation,
@@ -37,12 +37,12 @@ pub struct Contact<R: Real, G: Geometry<R> = Plane> {
     pub time_step: R,
 }
 
-/// Force of a contact on its first body.
+/// The force of a contact on its first body.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ContactForce<R: Real, G: Geometry<R> = Plane> {
     /// Normal force, positive in compression.
     pub normal: R,
-    /// Tangential force: in the plane along t = (−n_y, n_x).
+    /// Tangential force; in the plane, its component along t = (−n_y, n_x).
     pub tangential: G::Tangent,
     /// Torque arm R; the torque on either body is −R times n × the tangential force.
     pub arm: R,
@@ -58,19 +58,19 @@ impl<R: Real, G: Geometry<R>> Composite<R> for ContactForce<R, G> {
 }
 
 impl<R: Real, G: Geometry<R>> ContactForce<R, G> {
-    /// As a vector, the normal of the contact being `normal`.
+    /// Returns the force as a vector, where `normal` is the normal of the contact.
     #[inline(always)]
     pub(super) fn as_vector(&self, normal: G::Vector) -> G::Vector {
         G::put_together(normal, self.normal, self.tangential)
     }
 
-    /// Torque on either body.
+    /// Torque on each of the two bodies.
     #[inline(always)]
     pub(super) fn torque(&self, normal: G::Vector) -> G::Rotation {
         G::torque(normal, self.tangential).times(-self.arm)
     }
 
-    /// No force, in numbers like `number`.
+    /// Zero force, in numbers like `number`.
     #[inline(always)]
     pub fn none(number: R) -> Self {
         let zero = number.like(0.0);
@@ -84,17 +84,17 @@ impl<R: Real, G: Geometry<R>> ContactForce<R, G> {
 
 /// A law that gives the force of a contact from its motion, step by step.
 pub trait ContactModel<R: Real, G: Geometry<R> = Plane>: Copy {
-    /// State of a contact that lasts from one step to the next.
+    /// State of a contact that is carried from one step to the next.
     type Memory: Copy + Composite<R>;
 
     /// Memory of an undeformed contact, in numbers like `number`.
     fn initial(&self, number: R) -> Self::Memory;
 
-    /// The force of `contact`, whose memory is advanced to the present.
+    /// Returns the force of `contact` and advances its memory to the present.
     fn evaluate(&self, contact: &Contact<R, G>, memory: &mut Self::Memory) -> ContactForce<R, G>;
 }
 
-/// A contact law that a convention describes.
+/// A contact law that can be built from a convention.
 pub(super) trait ConventionalModel<R: Real, G: Geometry<R> = Plane>:
     ContactModel<R, G> + Composite<R>
 {
@@ -108,7 +108,7 @@ impl<R: Real, G: Geometry<R>> ConventionalModel<R, G> for SpringDashpot<R> {
     }
 }
 
-/// The paper's contact law, with the conventions by which other codes differ from it.
+/// The paper's contact law, with the variations in convention that occur in other codes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SpringDashpot<R> {
     /// Arm coefficients.
@@ -142,8 +142,8 @@ composite!(
 pub struct Spring<R: Real, G: Geometry<R> = Plane> {
     /// u, tangential displacement accumulated while the contact sticks.
     pub length: G::Tangent,
-    /// Normal of the contact when u was last brought up to date. Between cylinders whose springs nothing turns, u itself as
-    /// a vector, in place of the length along a tangent that turns.
+    /// Normal of the contact when u was last updated. For contacts between cylinders in the plane whose springs do not
+    /// turn, this is u itself as a vector, in place of `length`, which is measured along a tangent that turns.
     pub normal: G::Vector,
 }
 
@@ -157,7 +157,7 @@ impl<R: Real, G: Geometry<R>> Spring<R, G> {
         }
     }
 
-    /// The same function of every component of u, of a spring that follows `update`.
+    /// Applies `of` to every component of u, for a spring that follows `update`.
     #[inline(always)]
     pub(super) fn change(&mut self, update: HistoryUpdate, of: impl Fn(R) -> R) {
         self.length = self.length.with(self.length, |part, _| of(part));
@@ -189,8 +189,8 @@ impl<R: Real> SpringDashpot<R> {
         }
     }
 
-    /// h_n = k_n Δ − η_n v_n of a normal spring that exerts k_n Δ, the overlap Δ since k_n = 1, and a normal velocity
-    /// v_n, positive when separating (paper, "Numerical results").
+    /// Returns h_n = k_n Δ − η_n v_n, where `elastic` is k_n Δ (the overlap Δ, as k_n = 1), and the normal velocity
+    /// v_n is positive when separating (paper, "Numerical results").
     ///
     /// ```
     /// use tristack_dem::dem::SpringDashpot;
@@ -265,7 +265,7 @@ impl<R: Real, G: Geometry<R>> ContactModel<R, G> for SpringDashpot<R> {
 }
 
 impl<R: Real> SpringDashpot<R> {
-    /// The force of `contact`, whose normal spring exerts `elastic`, and whose memory is advanced to the present.
+    /// Returns the force of `contact`, whose normal spring exerts `elastic`, and advances its memory to the present.
     #[inline(always)]
     pub(super) fn exert<G: Geometry<R>>(
         &self,
@@ -289,7 +289,7 @@ impl<R: Real> SpringDashpot<R> {
             && G::IS_SMALL
             && contact.counterpart == Counterpart::Cylinder
         {
-            // Of the plane's springs this one alone is not along the tangent: it is kept and limited as a vector.
+            // In the plane, only this spring does not lie along the tangent, so it is stored and limited as a vector.
             let velocity = G::put_together(contact.normal, one.like(0.0), velocity);
             let force = self.tangential_force(&mut memory.normal, limit, velocity, time_step);
             return ContactForce {
@@ -298,7 +298,7 @@ impl<R: Real> SpringDashpot<R> {
                 arm,
             };
         }
-        // In space the normal of a wall costs as much as another one to follow, and never turns.
+        // In space, tracking the normal of a wall costs as much as that of a pair, and it never turns.
         let is_kept = match self.history_update {
             HistoryUpdate::Fixed => true,
             HistoryUpdate::Rotated if G::IS_SMALL => true,
@@ -510,7 +510,7 @@ mod tests {
         assert_eq!((memory.length, memory.normal), (0.8, [-0.6, 0.8]));
     }
 
-    /// The law of the paper with a spring that nothing turns.
+    /// The paper's law with a spring that does not turn.
     fn fixed() -> SpringDashpot<f64> {
         SpringDashpot {
             history_update: HistoryUpdate::Fixed,
@@ -539,7 +539,7 @@ mod tests {
             normal: [0.3, 0.1],
         };
         let force = fixed().evaluate(&PAIR, &mut memory);
-        // Longer by 0.05 t; the force is -0.4 u - 0.05 t = (-0.064, 0.002).
+        // The spring grows by 0.05 t; the force is −0.4 u − 0.05 t = (−0.064, 0.002).
         assert!(is_near(memory.normal, [0.26, 0.07]), "{memory:?}");
         assert_eq!(memory.length, 0.0);
         assert!((force.normal - 1.0 - 0.04).abs() < 1e-15, "{force:?}");
@@ -553,7 +553,7 @@ mod tests {
             normal: [-3.96, 0.03],
         };
         let force = fixed().evaluate(&PAIR, &mut memory);
-        // The spring of this step is (-4, 0), the force that would stick (1.64, 0.03).
+        // The stretched spring would be (−4, 0), and the sticking force is (1.64, 0.03).
         let sticking: [f64; 2] = [1.64, 0.03];
         let size = libm::hypot(sticking[0], sticking[1]);
         let along = sticking.map(|part| 0.5 * part / size);
@@ -661,7 +661,7 @@ mod tests {
             arms: Arms::PAPER,
             ..paper()
         };
-        // ω × n of a spin about x is along z.
+        // For a spin about x, ω × n is along z.
         let contact = Contact {
             sliding_speed: [30.0, 0.0, -20.0],
             spin: [20.0, 0.0, 0.0],
@@ -678,7 +678,7 @@ mod tests {
     fn a_spring_in_space_turns_as_its_convention_says() {
         let turn: f64 = 1e-2;
         let (from, to) = ([0.0, 1.0, 0.0], [turn.sin(), turn.cos(), 0.0]);
-        // Half of it is in the plane of the turn.
+        // One component of the spring lies in the plane of the turn, and one is normal to it.
         let spring = [3.0, 0.0, 4.0];
         let carried = |update, turned| Space::transport(update, spring, [from, to], turned);
         let size = |vector: [f64; 3]| Space::along(vector, vector).sqrt();
@@ -690,7 +690,7 @@ mod tests {
         let along_turn = product[0] * turn.cos() - product[1] * turn.sin();
         let expected = 3.0 * (turn.cos() + turn.sin().powi(2));
         assert!((along_turn - expected).abs() < 1e-14 && product[2] == 4.0);
-        // About the normal by half the sum of the angles.
+        // A twist about the normal, by half the sum of the angles.
         let twisted = carried(HistoryUpdate::Linearised, [0.0, 2e-3, 0.0]);
         assert!((twisted[0] - product[0] - 4.0 * 1e-3).abs() < 1e-14);
         assert!((twisted[2] - product[2] + 3.0 * 1e-3).abs() < 1e-6);

@@ -1,4 +1,4 @@
-//! A micro-test in the native DEM.
+//! Micro-tests in the native DEM.
 
 use super::contact::{ContactModel, ConventionalModel, SpringDashpot};
 use super::geometry::Facing;
@@ -40,7 +40,7 @@ where
     }
 }
 
-/// Runs `test` with any contact law in the plane.
+/// Runs `test` in the plane with any contact law.
 ///
 /// # Errors
 /// If the motion leaves the finite numbers.
@@ -51,7 +51,7 @@ pub fn run_contact_test_with<Model: ContactModel<f64>>(
     run_contact_test_in::<Model, Plane>(test, model)
 }
 
-/// The same in the plane or in space.
+/// Runs `test` with any contact law, in the plane or in space.
 ///
 /// # Errors
 /// If the motion leaves the finite numbers.
@@ -85,7 +85,7 @@ pub fn run_contact_test_in<Model: ContactModel<f64, G>, G: Geometry<f64>>(
     Motion::new(rows.collect(), test.steps)
 }
 
-/// The bodies at a step of a prescribed motion.
+/// The bodies at one step of a prescribed motion.
 fn driven<G: Geometry<f64>>(test: &ContactTest, drive: &Drive, step: u64) -> [Body<f64, G>; 2] {
     let [one, other] = test.initial_motions;
     let [distance, velocity] = drive.motion_at(step, test.time_step);

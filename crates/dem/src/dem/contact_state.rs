@@ -1,4 +1,4 @@
-//! A contact from one step to the next, in lanes of which perhaps only some touch.
+//! The state of a contact between steps, in lanes of which perhaps only some touch.
 
 use super::contact::{Contact, ContactForce, ContactModel};
 use super::geometry::{Geometry, Plane};
@@ -26,8 +26,8 @@ impl<R: Real, Memory: Copy + Composite<R>, G: Geometry<R>> ContactState<R, Memor
         }
     }
 
-    /// The force of `contact` in the lanes where it `touches`; in the others the force is zero and the memory that of a
-    /// new contact.
+    /// Evaluates `contact` in the lanes where it `touches`. In the other lanes, the kept force is zero and the memory
+    /// is that of a new contact.
     #[inline(always)]
     pub(super) fn evaluate<const KEEP: bool, Model: ContactModel<R, G, Memory = Memory>>(
         &mut self,
@@ -58,7 +58,7 @@ impl<R: Real, Memory: Copy + Composite<R>, G: Geometry<R>> ContactState<R, Memor
     }
 }
 
-/// Where two bodies touch.
+/// The lanes in which two bodies touch.
 #[derive(Clone, Copy)]
 pub(super) enum Touch<R: Real> {
     Everywhere,
@@ -132,7 +132,7 @@ mod tests {
         let mut state = after_one_step(Touch::Everywhere);
         state.separate::<true, _>(&law(), 0.0);
         assert_eq!((state.memory.length, state.force.normal), (0.0, 0.0));
-        // A force that is kept is that of this step, even where nothing was remembered.
+        // A kept force must be that of this step, even if the memory had nothing to reset.
         let mut state = after_one_step(Touch::Everywhere);
         state.loaded = false;
         state.separate::<true, _>(&law(), 0.0);

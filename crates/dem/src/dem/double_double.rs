@@ -1,4 +1,4 @@
-//! Double-double arithmetic, 106 bits, to measure the rounding of doubles.
+//! Double-double arithmetic with 106 bits, to measure the rounding errors of doubles.
 
 use super::real::{Real, Work};
 use num_traits::Float;
@@ -37,7 +37,7 @@ operators! {
 impl Div for DoubleDouble {
     type Output = Self;
 
-    /// The quotient of twofloat 0.8 has 53 bits; dividing the remainder gives the others.
+    /// A quotient in twofloat 0.8 has 53 bits; two divisions of the remainder supply the others.
     fn div(self, other: Self) -> Self {
         let rough = TwoFloat::from(self.0.hi() / other.0.hi());
         let remainder = self.0 - rough * other.0;

@@ -1,9 +1,9 @@
 //! Runs that report which event comes first (slip, closing of contact 2–3, wall contact) and under which load.
 //!
-//! Stacks on both sides of a boundary of the regime map differ so little that preparation and compression must be
-//! much slower than for a yield force. Gravity therefore rises at a fixed relative rate rather than over a fixed
-//! time: g(t) = g x/(1 + x), where x grows by a constant factor a step. Every force of the stack then grows by the
-//! same factor, and inertia changes the ratio of any two by the square of the rate.
+//! Stacks on both sides of a boundary of the regime map differ so little that preparation and compression must be much
+//! slower than for a yield force. Gravity therefore rises at a fixed relative rate rather than over a fixed time:
+//! g(t) = g x/(1 + x), where x grows by a constant factor per step. Every force of the stack then grows by the same
+//! factor, and inertia changes the ratio of any two forces by the square of the rate.
 
 use super::contact::{Contact, SpringDashpot};
 use super::scene::Body;
@@ -38,14 +38,14 @@ pub enum Until {
     EndOfTravel,
 }
 
-/// A run of which the events and the largest force are observed, under the paper's convention but for the rule by which
+/// A run that reports its events and its largest force. Its convention is the paper's, except for the rule by which
 /// springs change as their contacts turn.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct EventRun {
     /// The stack.
     pub stack: Stack,
-    /// What tangential springs do as their contacts turn.
+    /// The rule by which tangential springs change as their contacts turn.
     pub history_update: HistoryUpdate,
     /// How it is loaded.
     pub loading: Loading,
@@ -57,9 +57,9 @@ pub struct EventRun {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Observation {
-    /// When contact 2–3 closed, if it did before `last`.
+    /// The phase in which contact 2–3 closed, if it closed no later than `last`.
     pub closed: Option<LoadingPhase>,
-    /// The first of floor slip, cylinder slip and wall contact, and when it came.
+    /// The first of floor slip, cylinder slip and wall contact, and the phase in which it came.
     pub last: Option<(Event, LoadingPhase)>,
     /// Force of the top wall on cylinder 1 at that moment, in m g; 0 under own weight.
     pub force: f64,
@@ -69,33 +69,34 @@ pub struct Observation {
     pub stands: bool,
     /// Force of the whole top wall at its first maximum, or the largest so far, in m g.
     pub peak_force: f64,
-    /// Whether the force has fallen after that, by more than the stack can ring.
+    /// Whether the force has fallen from that maximum by more than vibration can explain.
     pub peaked: bool,
     /// Time steps taken.
     pub steps: u64,
-    /// Whether the run reached its end, rather than being given up.
+    /// Whether the run reached its end, and was not given up.
     pub complete: bool,
 }
 
-/// Fraction of its final value from which gravity grows. The vibration that this first step excites has died out
-/// long before [`COUNTED_LOAD`].
+/// Fraction of full gravity at which the ramp starts. The vibration that this first step excites dies out long before
+/// [`COUNTED_LOAD`].
 const FIRST_LOAD: f64 = 1e-7;
-/// Fraction of full gravity from which events count: under own weight they are present from the start or come
-/// near the end of the ramp.
+/// Fraction of full gravity from which events count. Under own weight, events are present from the start or come near
+/// the end of the ramp.
 const COUNTED_LOAD: f64 = 1e-2;
 /// Fraction of gravity that is missing when the ramp ends.
 const MISSING_LOAD: f64 = 1e-6;
-/// Height of cylinder 1 above the others below which the stack has fallen: it rests at √3 and falls to 0.
+/// Height of cylinder 1 above the others below which the stack has fallen. At rest it is √3, and it falls to 0.
 const LOWEST_RISE: f64 = 1.0;
-/// Time within which the stack loads by more than it vibrates: the wall starts with a jolt of a few time units.
+/// Time in which the load grows by more than the stack vibrates: the start of the wall excites it for a few time
+/// units.
 const RINGING: f64 = 20.0;
-/// Rounding of a force at its limit, relative to it.
+/// Relative rounding error of a force at its limit.
 const SAME: f64 = 1e-14;
-/// Steps between two calls of `wanted`: some milliseconds.
+/// Steps between two calls of `wanted`, which take some milliseconds.
 const STEPS_BETWEEN_QUESTIONS: u64 = 1 << 16;
 
 impl EventRun {
-    /// Content address: everything that decides the observation, the sources of the native DEM included.
+    /// Content address: a hash of everything that decides the observation, including the sources of the native DEM.
     pub fn address(&self) -> String {
         let parts = serde_json::json!(["event-run", super::SOURCE_DIGEST, self.convention(), self]);
         sha256_hex(parts.to_string().as_bytes())
@@ -108,7 +109,7 @@ impl EventRun {
         }
     }
 
-    /// Time steps that the run takes at most.
+    /// Upper bound of the number of time steps.
     pub fn largest_steps(&self) -> f64 {
         let loading = &self.loading;
         let ramp = -libm::log(FIRST_LOAD * MISSING_LOAD) / loading.gravity_rate;
@@ -117,7 +118,7 @@ impl EventRun {
         (ramp + start + loading.wall_travel / loading.wall_speed) / loading.time_step
     }
 
-    /// Prepares and compresses the stack, and observes it for as long as it is `wanted`.
+    /// Prepares and compresses the stack, and observes it while the run is `wanted`.
     pub fn observe(&self, wanted: impl Fn() -> bool) -> Observation {
         let Self {
             stack,
@@ -160,7 +161,7 @@ impl std::fmt::Display for EventRun {
 }
 
 impl Observation {
-    /// A run of no steps.
+    /// The observation before the first step.
     pub const NOTHING: Self = Self {
         closed: None,
         last: None,
@@ -187,7 +188,7 @@ struct Run {
 }
 
 impl Run {
-    /// Raises gravity; false if the run was given up.
+    /// Raises gravity; returns false if the run was given up.
     fn prepare(&mut self, loading: &Loading, until: Until, wanted: impl Fn(u64) -> bool) -> bool {
         let gravity = self.stack.epsilon();
         let growth = 1.0 + loading.gravity_rate * loading.time_step;
@@ -216,7 +217,7 @@ impl Run {
         true
     }
 
-    /// Lowers the wall; false if the run was given up.
+    /// Lowers the wall; returns false if the run was given up.
     fn compress(&mut self, loading: &Loading, until: Until, wanted: impl Fn(u64) -> bool) -> bool {
         if until == Until::LastEvent && self.observation.last.is_some() {
             return true;
@@ -227,7 +228,7 @@ impl Run {
             if !wanted(step) {
                 return false;
             }
-            // The load first grows at the relative rate at which gravity rose.
+            // At first the load grows at the relative rate at which gravity rose.
             let gentle = loading.gravity_rate * (self.stack.epsilon() + travel);
             self.scene.walls[TOP_WALL].speed = loading.wall_speed.min(gentle);
             self.scene.evaluate_forces();
@@ -291,7 +292,7 @@ impl Run {
         self.observation.last = event.map(|event| (event, phase));
     }
 
-    /// Whether either floor contact is at Coulomb's limit.
+    /// Whether a floor contact is at Coulomb's limit.
     fn floor_slides(&self) -> bool {
         let friction = self.scene.walls[FLOOR].friction;
         [RIGHT, LEFT].into_iter().any(|cylinder| {
@@ -301,19 +302,19 @@ impl Run {
         })
     }
 
-    /// Whether either contact of cylinder 1 with the others is at Coulomb's limit.
+    /// Whether a contact of cylinder 1 with one of the others is at Coulomb's limit.
     fn cylinders_slide(&self) -> bool {
         [RIGHT, LEFT].into_iter().any(|cylinder| {
             let force = self.scene.pair_force(cylinder, TOP);
             let pressed = self.pressed([cylinder, TOP]);
-            // What a spring that nothing turns exerts along the normal is a part of the tangential force.
+            // The force along the normal of a spring that does not turn is part of the tangential force.
             let whole = libm::hypot(force.tangential, force.normal - pressed);
             let limit = self.scene.cylinder_friction * pressed.abs();
             limit > 0.0 && whole >= limit * (1.0 - SAME)
         })
     }
 
-    /// The force of the overlap of two cylinders and its damping.
+    /// The normal force of two cylinders from their overlap and damping alone.
     fn pressed(&self, pair: [usize; 2]) -> f64 {
         let scene = &self.scene;
         let bodies = pair.map(|index| &scene.cylinders[index]);
@@ -324,7 +325,7 @@ impl Run {
     }
 }
 
-/// A case with the stack, convention and time step from which the scene is built.
+/// A case with the stack, convention and time step for building the scene.
 fn case(stack: &Stack, convention: ContactConvention, loading: &Loading) -> Case {
     Case {
         stack: *stack,

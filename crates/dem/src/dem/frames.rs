@@ -1,4 +1,4 @@
-//! The sampled states of a native run with all contact forces.
+//! Frames of a native run: the sampled states with all contact forces.
 
 use super::contact::{ContactModel, ConventionalModel, SpringDashpot};
 use super::geometry::{Geometry, Space};
@@ -11,8 +11,8 @@ use super::stack_scene::{
 use crate::model::{Case, PAPER_BODIES};
 use crate::series::{ContactPoint, Frame, Frames, Partner, PlacedBody, Series, SeriesError};
 
-/// Compresses the stack like [`compress_stack`](super::compress_stack), to the same bits, and keeps every contact force
-/// at every row of the series.
+/// Compresses the stack like [`compress_stack`](super::compress_stack), with the same bits, and keeps every contact
+/// force at every row of the series.
 ///
 /// # Errors
 /// If the motion leaves the finite numbers, or the run is given up.
@@ -66,7 +66,7 @@ where
     Ok((series, frames))
 }
 
-/// The present state of the scene, at time 0.
+/// Returns the present state of the scene, with step and time 0.
 fn frame<const BODIES: usize, const WALLS: usize, Model, G>(
     case: &Case,
     scene: &Scene<BODIES, WALLS, f64, Model, G>,
@@ -92,7 +92,7 @@ where
     }
 }
 
-/// The bodies that there are.
+/// The number of bodies in this stack.
 fn count(case: &Case) -> usize {
     usize::from(case.stack.bodies) + 1
 }

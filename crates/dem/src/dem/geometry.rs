@@ -1,39 +1,39 @@
-//! The plane, in which cylinders move, and space, in which spheres do.
+//! The plane, for cylinders, and space, for spheres.
 
 use super::real::{Composite, Real};
 use crate::model::HistoryUpdate;
 use std::fmt::Debug;
 
-/// A number or several that are added and scaled part by part.
+/// A number, or several that are added and scaled component by component.
 pub trait Linear<R: Real>: Copy + Debug + Composite<R> {
-    /// The same function of every part of both.
+    /// Applies `of` to the corresponding components of both.
     fn with(self, other: Self, of: impl Fn(R, R) -> R) -> Self;
 
-    /// Sum.
+    /// Returns the sum.
     #[inline(always)]
     fn plus(self, other: Self) -> Self {
         self.with(other, |one, other| one + other)
     }
 
-    /// Difference.
+    /// Returns the difference.
     #[inline(always)]
     fn minus(self, other: Self) -> Self {
         self.with(other, |one, other| one - other)
     }
 
-    /// Product with a number.
+    /// Returns the product with a number.
     #[inline(always)]
     fn times(self, factor: R) -> Self {
         self.with(self, |part, _| part * factor)
     }
 
-    /// Quotient by a number.
+    /// Returns the quotient by a number.
     #[inline(always)]
     fn over(self, divisor: R) -> Self {
         self.with(self, |part, _| part / divisor)
     }
 
-    /// Opposite.
+    /// Returns the negated value.
     #[inline(always)]
     fn negated(self) -> Self {
         self.with(self, |part, _| -part)
@@ -59,9 +59,9 @@ impl<R: Real, const N: usize> Linear<R> for [R; N] {
 
 /// A vector in the tangent plane of a contact.
 pub trait Tangential<R: Real>: Linear<R> {
-    /// Whether it is shorter than `limit`.
+    /// Whether the vector is shorter than `limit`.
     fn is_below(self, limit: R) -> R::Mask;
-    /// A vector along it of length `limit`.
+    /// Returns a vector of length `limit` in the same direction.
     fn of_length(self, limit: R) -> Self;
 }
 
@@ -87,7 +87,7 @@ impl<R: Real, const N: usize> Tangential<R> for [R; N] {
     fn of_length(self, limit: R) -> Self {
         let length = square(self).sqrt();
         let (zero, one) = (limit.like(0.0), limit.like(1.0));
-        // No vector has no direction.
+        // A zero vector has no direction.
         let is_there = zero.less(length);
         let factor = limit / R::select(is_there, length, one);
         self.times(R::select(is_there, factor, zero))
@@ -127,29 +127,29 @@ impl Facing {
     }
 }
 
-/// Where bodies move: what their vectors are, and how a contact sees them.
+/// The geometry in which bodies move: the types of their vectors, and operations on contacts.
 pub trait Geometry<R: Real>: Copy + Debug {
-    /// A place, velocity or force.
+    /// A position, velocity or force.
     type Vector: Tangential<R>;
     /// A rotation, angular velocity or torque.
     type Rotation: Linear<R>;
-    /// A vector in the tangent plane of a contact: in the plane its component along t = (−n_y, n_x).
+    /// A vector in the tangent plane of a contact; in the plane, its component along t = (−n_y, n_x).
     type Tangent: Tangential<R>;
 
     /// Number of axes.
     const AXES: usize;
-    /// Whether bodies are so few that a loop over them is best written out.
+    /// Whether there are so few bodies that a loop over them is best unrolled.
     const IS_SMALL: bool;
 
-    /// The vector with these components, as far as there are axes for them.
+    /// The vector with these components, except those along axes that do not exist.
     fn vector(components: [R; 3]) -> Self::Vector;
     /// The components of a vector.
     fn components(vector: Self::Vector) -> [R; 3];
-    /// The rotation about the axes that there are.
+    /// The rotation with these components, except those about axes that do not exist.
     fn rotation(components: [R; 3]) -> Self::Rotation;
     /// The components of a rotation.
     fn rotation_components(rotation: Self::Rotation) -> [R; 3];
-    /// No vector in the tangent plane, in numbers like `number`.
+    /// The zero vector of the tangent plane, in numbers like `number`.
     fn no_tangent(number: R) -> Self::Tangent;
 
     /// The vector divided by its length.
@@ -158,17 +158,18 @@ pub trait Geometry<R: Real>: Copy + Debug {
     fn kick(torque: Self::Rotation, moment_of_inertia: R, time_step: R) -> Self::Rotation;
     /// Scalar product.
     fn along(normal: Self::Vector, vector: Self::Vector) -> R;
-    /// The part of a vector in the tangent plane.
+    /// The component of a vector in the tangent plane.
     fn tangential(normal: Self::Vector, vector: Self::Vector) -> Self::Tangent;
     /// ω × n.
     fn rolling(normal: Self::Vector, spin: Self::Rotation) -> Self::Tangent;
-    /// The vector with this part along the normal and that in the tangent plane.
+    /// The vector with this component along the normal and this one in the tangent plane.
     fn put_together(normal: Self::Vector, along: R, tangential: Self::Tangent) -> Self::Vector;
-    /// n × f of a force in the tangent plane.
+    /// n × f for a force f in the tangent plane.
     fn torque(normal: Self::Vector, force: Self::Tangent) -> Self::Rotation;
 
-    /// A spring of a contact whose normal turns, while the bodies turn by the angle `turned`, twice the mean of both. In the
-    /// plane, whose springs are numbers along the tangent, not one that nothing turns.
+    /// Returns the spring of a contact after its normal has turned while the bodies turned by `turned`, twice the mean
+    /// of both angles. In the plane, springs are numbers along the tangent, so this does not cover a spring that does
+    /// not turn.
     fn transport(
         update: HistoryUpdate,
         spring: Self::Tangent,
@@ -180,7 +181,7 @@ pub trait Geometry<R: Real>: Copy + Debug {
     fn along_wall(facing: Facing, vector: Self::Vector) -> R;
     /// The part of a vector in the tangent plane of a wall.
     fn tangential_to_wall(facing: Facing, vector: Self::Vector) -> Self::Tangent;
-    /// A force on a wall as a vector.
+    /// The force of a wall as a vector, from its two components.
     fn put_together_at_wall(facing: Facing, along: R, tangential: Self::Tangent) -> Self::Vector;
 }
 
@@ -351,7 +352,7 @@ impl<R: Real> Geometry<R> for Space {
 
     #[inline(always)]
     fn kick(torque: [R; 3], moment_of_inertia: R, time_step: R) -> [R; 3] {
-        // One division for all bodies.
+        // The quotient is the same for all bodies, so that one division serves them all.
         torque.times(time_step / moment_of_inertia)
     }
 

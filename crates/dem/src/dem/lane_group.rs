@@ -6,18 +6,18 @@ use super::stack_scene::LoadedStack;
 use crate::model::Case;
 use crate::series::{DropWatch, Sample};
 
-/// Steps between two calls of `wanted`: some milliseconds.
+/// Steps between two calls of `wanted`, which take some milliseconds.
 const STEPS_BETWEEN_QUESTIONS: u64 = 1 << 16;
 
-/// The run in one lane.
+/// The run of one lane.
 #[derive(Debug, Clone)]
 pub(super) struct Lane {
     /// Index of the case.
     pub(super) index: usize,
     pub(super) case: Case,
-    /// Steps done, from the start of the preparation.
+    /// Steps completed, from the start of the preparation.
     pub(super) step: u64,
-    /// Rows so far.
+    /// Rows taken so far.
     pub(super) samples: Vec<Sample>,
     program: LoadingProgram,
     next_event: Option<u64>,
@@ -27,7 +27,7 @@ pub(super) struct Lane {
 }
 
 impl Lane {
-    /// A run of `case`, after `step` steps and with the `samples` taken so far.
+    /// Starts a run of `case`, after `step` steps and with the `samples` taken so far.
     pub(super) fn new(index: usize, case: Case, step: u64, samples: Vec<Sample>) -> Self {
         let program = LoadingProgram::new(&case);
         let mut lane = Self {
@@ -44,7 +44,7 @@ impl Lane {
         lane
     }
 
-    /// Adds a row; the run ends after the last one.
+    /// Adds a row; a drop of the force ends the run.
     fn take(&mut self, sample: Sample) {
         let (watch, from) = &mut self.drop;
         if sample.step >= *from && watch.has_dropped(sample.wall_force) {
@@ -70,18 +70,18 @@ pub(super) trait Supervisor<Stack> {
     fn wanted(&mut self, stack: &Stack, lanes: &[Option<Lane>]) -> bool;
     /// Called when a row has been taken.
     fn sampled(&mut self, _stack: &Stack) {}
-    /// Receives the run of a lane when it has ended, possibly early.
+    /// Receives the run of a lane at its end, which may be early.
     fn ended(&mut self, lane: Lane);
 }
 
-/// As many stacks as there are lanes.
+/// A group of stacks, one per lane.
 pub(super) struct LaneGroup<Stack: LoadedStack> {
     stack: Stack,
     lanes: Vec<Option<Lane>>,
 }
 
 impl<Stack: LoadedStack> LaneGroup<Stack> {
-    /// Lanes without runs, which share the properties of `stack`.
+    /// Creates empty lanes that share the properties of `stack`.
     pub(super) fn new(stack: Stack) -> Self {
         Self {
             stack,
@@ -89,7 +89,7 @@ impl<Stack: LoadedStack> LaneGroup<Stack> {
         }
     }
 
-    /// Runs everything that `supervisor` supplies, until nothing is left or the runs are given up.
+    /// Runs everything that `supervisor` supplies, until nothing is left or the supervisor stops it.
     pub(super) fn run(&mut self, supervisor: &mut impl Supervisor<Stack>) {
         for lane in 0..self.lanes.len() {
             self.lanes[lane] = supervisor.fill(&mut self.stack, lane);
@@ -114,7 +114,7 @@ impl<Stack: LoadedStack> LaneGroup<Stack> {
         }
     }
 
-    /// Steps until the next action or row in any lane; `None` if all are empty.
+    /// Returns the steps until the next action or row in any lane; `None` if all lanes are empty.
     fn quiet_steps(&self) -> Option<u64> {
         let lanes = self.lanes.iter().flatten();
         lanes
@@ -134,7 +134,7 @@ impl<Stack: LoadedStack> LaneGroup<Stack> {
         stack.number().vectorize(Stepping { stack, part });
     }
 
-    /// One step with an action or a row.
+    /// Carries out one step with an action or a row.
     fn eventful_step(&mut self, supervisor: &mut impl Supervisor<Stack>) {
         for (index, lane) in eventful(&mut self.lanes) {
             let case = lane.case;
@@ -154,7 +154,7 @@ impl<Stack: LoadedStack> LaneGroup<Stack> {
         }
     }
 
-    /// Counts the step, and removes the run if it was its last.
+    /// Counts the step, and replaces the run if it is complete.
     fn step_on(&mut self, index: usize, supervisor: &mut impl Supervisor<Stack>) {
         let slot = &mut self.lanes[index];
         let Some(lane) = slot else { return };
@@ -175,7 +175,7 @@ enum Part {
     Forces,
     /// Advance velocities, positions and walls.
     Motion,
-    /// Both, for so many steps.
+    /// Both, for this number of steps.
     Steps(u64),
 }
 

@@ -7,10 +7,10 @@ use std::fmt::Debug;
 use std::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub};
 use std::slice::{from_mut, from_ref};
 
-/// An instruction set, with the alignment at which its loads and stores are fastest: those across cache lines take
-/// twice as long, and delay later reads of the same address.
+/// An instruction set, with the alignment at which its loads and stores are fastest. Those that cross a cache line
+/// take twice as long, and delay later reads of the same address.
 pub trait InstructionSet: Simd {
-    /// A type of that alignment.
+    /// A type with that alignment.
     type Alignment: Copy + Debug;
 }
 
@@ -34,8 +34,8 @@ impl InstructionSet for pulp::x86::V4 {
     type Alignment = AlignedLikeEight;
 }
 
-/// One double for each lane of the instruction set `S`. Products are never fused with sums, and root and
-/// quotient are those of IEEE 754, so that a lane holds the same bits as a single double.
+/// One double for each lane of the instruction set `S`. Products are never fused with sums, and square root and
+/// quotient are those of IEEE 754, so that a lane has the same bits as a single double.
 #[derive(Debug, Clone, Copy)]
 pub struct Lanes<S: InstructionSet> {
     simd: S,

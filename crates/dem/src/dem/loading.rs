@@ -1,9 +1,9 @@
-//! The actions on a stack during preparation and compression, and their steps.
+//! The actions on a stack during preparation and compression, and the steps at which they occur.
 
 use crate::model::{Case, PreparationSteps, Protocol, Schedule, SideWallSteps, smooth_step};
 use crate::series::DropWatch;
 
-/// An action before the forces of a step are evaluated.
+/// An action that precedes the evaluation of the forces in a step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Action {
     /// Set gravity.
@@ -19,13 +19,13 @@ pub(super) enum Action {
         /// Its velocity, upwards.
         velocity: f64,
     },
-    /// Put the top wall onto the top cylinder, moving at this speed.
+    /// Put the top wall onto the top cylinder, and move it at this speed.
     StartTopWall(f64),
     /// Change the speed of the top wall.
     MoveTopWall(f64),
 }
 
-/// The preparation and compression of one case.
+/// The program of preparation and compression of one case.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct LoadingProgram {
     schedule: Schedule,
@@ -34,7 +34,7 @@ pub(super) struct LoadingProgram {
 }
 
 impl LoadingProgram {
-    /// The loading of `case`.
+    /// The program of `case`.
     pub(super) fn new(case: &Case) -> Self {
         Self {
             schedule: case.protocol.schedule(),
@@ -43,24 +43,24 @@ impl LoadingProgram {
         }
     }
 
-    /// Steps before the compression.
+    /// Number of steps before the compression.
     fn preparation(&self) -> u64 {
         self.schedule.preparation.total()
     }
 
-    /// The step of the compression that `step` is, if a row is taken there.
+    /// Returns the step of the compression at `step` if a row is taken there.
     pub(super) fn row_at(&self, step: u64) -> Option<u64> {
         let step = step.checked_sub(self.preparation())?;
         (self.schedule.row_from(step) == Some(step)).then_some(step)
     }
 
-    /// The drop of the wall force that ends the run, and the step of the compression from whose rows on it counts.
+    /// The watch on a drop of the wall force that ends the run, and the step of the compression from which rows count.
     pub(super) fn drop_watch(&self) -> (DropWatch, u64) {
         let watch = DropWatch::new(self.schedule.stop_at_drop);
         (watch, self.schedule.fine_from_step)
     }
 
-    /// The first step from `step` on with an action or a row; `None` after the last row.
+    /// Returns the first step at or after `step` with an action or a row; `None` after the last row.
     pub(super) fn event_from(&self, step: u64) -> Option<u64> {
         let compression = self.preparation();
         if step >= compression {
@@ -76,7 +76,7 @@ impl LoadingProgram {
         Some(next.unwrap_or(compression))
     }
 
-    /// The first step of the compression from `step` on at which the wall becomes slower.
+    /// Returns the first step of the compression at or after `step` at which the wall slows down.
     fn slower_from(&self, step: u64) -> Option<u64> {
         let (start, steps) = (self.schedule.fast_steps, self.schedule.slowing_steps);
         Some(step.max(start)).filter(|&next| steps > 0 && next <= start + steps)
@@ -137,7 +137,7 @@ impl<'a> SideWallPhases<'a> {
         }
     }
 
-    /// Hold the top cylinder at every step until its release.
+    /// Returns the next step with an action; until its release, the top cylinder is held at every step.
     fn event_from(&self, step: u64) -> Option<u64> {
         if step <= self.settle {
             return Some(step);

@@ -13,7 +13,7 @@ use serde::{Deserialize, Serialize};
 /// A run that is not complete yet.
 #[derive(Debug, Clone, PartialEq)]
 pub struct OpenRun {
-    /// Index, as the caller counts.
+    /// The caller's index of the run.
     pub index: usize,
     /// The case.
     pub case: Case,
@@ -21,20 +21,20 @@ pub struct OpenRun {
     pub checkpoint: Option<Checkpoint>,
 }
 
-/// The state of a run, from which it continues to the same bits.
+/// The state of a run, from which it continues with the same bits.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Checkpoint {
-    /// Steps done, from the start of the preparation.
+    /// Steps completed, from the start of the preparation.
     pub step: u64,
-    /// Rows so far.
+    /// Rows taken so far.
     pub samples: Vec<Sample>,
-    /// Every number of the scene.
+    /// All numbers of the scene.
     pub numbers: Vec<f64>,
 }
 
 impl Checkpoint {
-    /// Whether this can be a state of a run of `case`: it has exactly the rows that are taken before the step, and as
-    /// many numbers as the scene. The values of the numbers cannot be checked.
+    /// Whether this can be a state of a run of `case`: it must have exactly the rows that are taken before its step,
+    /// and as many numbers as the scene. The values of the numbers cannot be checked, except that they must be finite.
     pub fn fits(&self, case: &Case) -> bool {
         let schedule = case.protocol.schedule();
         let done = self.step.saturating_sub(schedule.preparation.total());
@@ -55,7 +55,7 @@ impl Checkpoint {
     }
 }
 
-/// The numbers of the scene of `case`.
+/// Returns how many numbers the scene of `case` has.
 fn count_of_numbers(case: &Case) -> usize {
     struct Count;
     impl OnStack<f64> for Count {
@@ -68,9 +68,9 @@ fn count_of_numbers(case: &Case) -> usize {
     on_stack(case, 0.0, Count)
 }
 
-/// Source of runs, and receiver of their series.
+/// A source of runs, which also receives their series.
 pub trait RunQueue {
-    /// The next run. All must be of the same [`LaneKind`].
+    /// Returns the next run. All runs must be of the same [`LaneKind`].
     fn next(&mut self) -> Option<OpenRun>;
     /// Whether to continue; called every few milliseconds.
     fn wanted(&mut self, open: &dyn OpenRuns) -> bool;
@@ -80,13 +80,13 @@ pub trait RunQueue {
 
 /// The runs in the lanes, by index.
 pub trait OpenRuns {
-    /// Steps done by each.
+    /// Steps completed by each run.
     fn steps(&self) -> Vec<(usize, u64)>;
-    /// Checkpoint of each.
+    /// Checkpoint of each run.
     fn checkpoints(&self) -> Vec<(usize, Checkpoint)>;
 }
 
-/// The properties that the cases in the lanes of one vector share: all of them execute the same instructions, on
+/// The properties that all cases in the lanes of one vector must share, so that they execute the same instructions on
 /// different numbers.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LaneKind {
@@ -111,7 +111,7 @@ impl LaneKind {
     }
 }
 
-/// Number of doubles that this machine adds in one instruction.
+/// The number of doubles that one instruction of this machine processes.
 #[derive(Debug, Clone, Copy)]
 pub struct LaneWidth(Instructions);
 
@@ -126,10 +126,10 @@ enum Instructions {
 }
 
 impl LaneWidth {
-    /// A run at a time, without vectors.
+    /// One run at a time, without vectors.
     pub const ONE: Self = Self(Instructions::One);
 
-    /// Every width that can be used here, narrowest first.
+    /// Every width available on this machine, narrowest first.
     pub fn available() -> Vec<Self> {
         let mut widths = vec![Self::ONE, Self(Instructions::Two)];
         #[cfg(target_arch = "x86_64")]
@@ -141,13 +141,13 @@ impl LaneWidth {
         widths
     }
 
-    /// The widest that can be used here.
+    /// The widest available on this machine.
     pub fn widest() -> Self {
         let available = Self::available();
         available.into_iter().next_back().unwrap_or(Self::ONE)
     }
 
-    /// Number of lanes: 8 with AVX-512, 4 with AVX2, 2 otherwise.
+    /// Number of lanes: 8 with AVX-512, 4 with AVX2, otherwise 2 or 1.
     pub fn lanes(self) -> usize {
         match self.0 {
             Instructions::One => f64::LANES,
@@ -159,15 +159,14 @@ impl LaneWidth {
         }
     }
 
-    /// Carries out all runs of `queue`, a lane each, to the bits of [`compress_stack`], for as long as they are
-    /// wanted.
+    /// Carries out all runs of `queue`, each in a lane, with the bits of [`compress_stack`], while they are wanted.
     ///
     /// [`compress_stack`]: super::compress_stack
     pub fn compress_stacks(self, queue: &mut impl RunQueue) {
         self.with_number(Compression(queue));
     }
 
-    /// Does `work` with numbers of so many lanes.
+    /// Does `work` with numbers that have this many lanes.
     pub(super) fn with_number<Work: OnNumber>(self, work: Work) -> Work::Outcome {
         match self.0 {
             Instructions::One => work.on(0.0),
@@ -180,7 +179,7 @@ impl LaneWidth {
     }
 }
 
-/// Work with numbers of any number of lanes.
+/// Work that can be done with any number of lanes.
 pub(super) trait OnNumber {
     /// The result.
     type Outcome;

@@ -1,7 +1,7 @@
-//! Native time stepping: the paper's DEM for any number of cylinders or spheres and plane walls, and its stack with other
-//! laws.
+//! Native time stepping: the paper's DEM for any number of cylinders or spheres and plane walls, and its stack with
+//! other contact laws.
 //!
-//! The stepping uses only +, −, ×, ÷ and √, in a fixed order and without fused multiply-add, so that its results are
+//! The stepping uses only +, −, ×, ÷ and √, in a fixed order and without fused multiply-add, so that its results have
 //! the same bits on every machine.
 
 mod contact;

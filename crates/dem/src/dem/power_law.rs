@@ -1,4 +1,4 @@
-//! Contacts whose stiffness grows with the overlap: at each overlap they are springs and dashpots.
+//! Contacts whose stiffness grows with the overlap. At each overlap they act like springs and dashpots.
 
 use super::contact::{
     Contact, ContactForce, ContactModel, ConventionalModel, Counterpart, Spring, SpringDashpot,
@@ -7,7 +7,7 @@ use super::geometry::{Geometry, Plane};
 use super::real::{Composite, Real, composite};
 use crate::model::{ContactConvention, ContactLaw};
 
-/// The law of any power, with the conventions by which codes differ.
+/// The contact law of any power, with the conventions in which codes differ.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PowerLaw<R> {
     /// Contacts between cylinders, and the conventions of every contact.
@@ -19,9 +19,9 @@ pub struct PowerLaw<R> {
 /// Memory of a [`PowerLaw`] contact.
 #[derive(Debug, Clone, Copy)]
 pub struct LoadedSpring<R: Real, G: Geometry<R> = Plane> {
-    /// Its `length` is the displacement u, or k_t u as the force remembers it.
+    /// The spring. Its `length` is the displacement u, or k_t u if the spring remembers the force.
     pub spring: Spring<R, G>,
-    /// Overlap in the last step; 0 of a new contact.
+    /// Overlap in the last step; 0 for a new contact.
     pub overlap: R,
 }
 
@@ -97,7 +97,7 @@ impl<R: Real, G: Geometry<R>> ContactModel<R, G> for PowerLaw<R> {
         if !law.history.keeps_force() {
             return springs.exert(contact, own.secant * overlap, spring);
         }
-        // As a displacement at the present stiffness it grows by k_t du.
+        // The remembered force grows by k_t du: it is converted to a displacement at the present stiffness, and back.
         spring.change(self.pair.history_update, |part| {
             part / own.tangential_stiffness
         });
@@ -134,7 +134,8 @@ mod tests {
         }
     }
 
-    /// Tangential force at rest after the surfaces have moved by `moved` at the first overlap, at each further overlap.
+    /// Returns the tangential force at rest at each further overlap, after the surfaces have moved by `moved` at the
+    /// first one.
     fn forces(law: Law, moved: f64, overlaps: &[f64]) -> Vec<f64> {
         let model = of(law);
         let mut memory = model.initial(0.0);
@@ -186,7 +187,7 @@ mod tests {
 
     #[test]
     fn histories_differ_in_what_a_change_of_the_overlap_does() {
-        // Pressed from 0.1 to 0.19 the stiffness grows by √1.9; released to 0.05 the contact radius falls by √(0.05/0.19).
+        // From 0.1 to 0.19 the stiffness grows by √1.9; from there to 0.05 the contact radius falls by √(0.05/0.19).
         let stiffness = |overlap: f64| 1.5 * std::f64::consts::SQRT_2 * overlap.sqrt() / 2.0;
         let (moved, overlaps) = (0.01, [0.1, 0.19, 0.05]);
         let released = (0.05f64 / 0.19).sqrt();

@@ -1,9 +1,10 @@
-//! The program behind the paper's figures (github.com/Ryudo-Suzuki/arXiv-2511.06807, src/compress.c): its contact law, the
-//! start of its runs, and their end.
+//! The program behind the paper's figures (github.com/Ryudo-Suzuki/arXiv-2511.06807, src/compress.c): its contact law,
+//! and how its runs start and end.
 //!
-//! It differs from the paper's text, and from [`SpringDashpot`], in these: the force takes the spring before the increment of
-//! the step; friction opposes the present velocity, not the spring; the spring of a sliding contact is cut to what the overlap
-//! bears; gravity is complete at once, and the wall stands for a while; the yield force is the one before the first decrease.
+//! It differs from the paper's text and from [`SpringDashpot`] in five points. The force takes the spring before the
+//! increment of the step. Friction opposes the present velocity, not the spring. The spring of a sliding contact is
+//! cut to the length that the overlap allows. Gravity is complete at once, and the wall stands still for a while. The
+//! yield force is the force before the first decrease.
 //!
 //! [`SpringDashpot`]: super::SpringDashpot
 
@@ -19,9 +20,9 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
-/// Steps between two looks at which runs have ended: some milliseconds.
+/// Steps between two checks for finished runs, which take some milliseconds.
 const STEPS_IN_A_BLOCK: u64 = 1 << 14;
-/// Way of the wall after which nothing is left of a stack.
+/// Travel of the wall at which no stack is left.
 const LONGEST_TRAVEL: f64 = 3.0;
 
 /// Places, velocities and springs at the start of a run; bodies in the order top, right, left.
@@ -38,7 +39,7 @@ pub struct GivenStart {
     pub floor_springs: [[f64; 2]; 2],
 }
 
-/// A run as the program makes it.
+/// A run as made by the published program.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PublishedRun {
@@ -48,32 +49,32 @@ pub struct PublishedRun {
     pub stack: Stack,
     /// Restitution e_r.
     pub restitution: f64,
-    /// Height at which the top wall stands at first, in r.
+    /// Initial height of the top wall, in r.
     pub wall_height: f64,
-    /// Time for which it stands, in √(m/k_n).
+    /// Time for which the wall stands still, in √(m/k_n).
     pub wall_starts: f64,
-    /// Speed with which it then moves down, in r √(k_n/m).
+    /// Speed at which the wall then moves down, in r √(k_n/m).
     pub wall_speed: f64,
     /// Time step, in √(m/k_n).
     pub time_step: f64,
-    /// Steps of which the force is kept; the run then ends with the last of them, not with the first decrease.
+    /// The steps whose force is kept, if any. The run then ends with the last of them, not with the first decrease.
     pub sampling: Option<ForceSampling>,
 }
 
-/// Steps of which the force of the wall is kept, evenly spaced.
+/// Evenly spaced steps at which the force of the wall is kept.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ForceSampling {
-    /// The first of them, counted from 0.
+    /// The first step, counted from 0.
     pub first: u64,
-    /// Steps from one to the next.
+    /// Distance from one step to the next.
     pub every: u64,
-    /// How many they are.
+    /// Number of steps.
     pub count: u64,
 }
 
 impl ForceSampling {
-    /// One step, with which the run ends.
+    /// A single step, with which the run ends.
     pub fn at(step: u64) -> Self {
         Self {
             first: step,
@@ -88,18 +89,18 @@ impl ForceSampling {
     }
 }
 
-/// What a published run shows.
+/// The result of a published run.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PublishedForces {
     /// The force before its first decrease, in m g; `None` if it never decreases.
     pub yield_force: Option<f64>,
-    /// The forces that were asked for, in m g.
+    /// The forces at the requested steps, in m g.
     pub samples: Vec<f64>,
 }
 
 impl PublishedForces {
-    /// Whether all its numbers are finite and there is one at least.
+    /// Whether there is at least one number and all are finite.
     pub fn is_usable(&self) -> bool {
         let mut all = self.yield_force.iter().chain(&self.samples);
         all.clone().next().is_some() && all.all(|force| force.is_finite())
@@ -123,13 +124,13 @@ impl fmt::Display for PublishedRun {
 }
 
 impl PublishedRun {
-    /// Content address: everything that decides its forces, the sources of the native DEM included.
+    /// Content address: a hash of everything that decides its forces, including the sources of the native DEM.
     pub fn address(&self) -> String {
         let parts = serde_json::json!(["published-run", super::SOURCE_DIGEST, self]);
         sha256_hex(parts.to_string().as_bytes())
     }
 
-    /// The most steps that it takes.
+    /// Upper bound of the number of steps.
     pub fn largest_steps(&self) -> u64 {
         match self.sampling {
             Some(sampling) => {
@@ -140,12 +141,12 @@ impl PublishedRun {
         }
     }
 
-    /// The first step of which the wall moves.
+    /// The first step in which the wall moves.
     fn first_moving_step(&self) -> u64 {
         (self.wall_starts / self.time_step).ceil() as u64
     }
 
-    /// The step with which a run ends whose force never falls.
+    /// The step at which a run ends if its force never falls.
     fn last_step(&self) -> u64 {
         let travel = (LONGEST_TRAVEL / (self.wall_speed * self.time_step)) as u64;
         self.first_moving_step().saturating_add(travel)
@@ -184,7 +185,7 @@ impl PublishedRun {
         scene
     }
 
-    /// Where the wall is, and how fast, when it has begun to move.
+    /// Puts the wall where it is at the first step in which it moves, and sets its speed.
     fn start_wall<R: Real>(&self, lane: usize, scene: &mut StackScene<R, PublishedLaw<R>>) {
         let late = self.first_moving_step() as f64 * self.time_step - self.wall_starts;
         let height = self.wall_height - self.wall_speed * late;
@@ -193,7 +194,7 @@ impl PublishedRun {
         wall.speed.set_lane(lane, wall.speed.like(self.wall_speed));
     }
 
-    /// A case from which a scene takes stack and time step.
+    /// A case with the stack and time step for building the scene.
     fn case(&self) -> Case {
         Case {
             stack: self.stack,
@@ -267,7 +268,7 @@ impl<R: Real> ContactModel<R, Plane> for PublishedLaw<R> {
 }
 
 impl LaneWidth {
-    /// Carries out `runs` as long as they are `wanted`; `ended` is told the index of each as it ends, and its forces.
+    /// Carries out `runs` while they are `wanted`. Calls `ended` with the index and the forces of each run at its end.
     pub fn run_published(
         self,
         runs: &[PublishedRun],
@@ -334,12 +335,12 @@ impl<Wanted: FnMut() -> bool, Ended: FnMut(usize, PublishedForces)> OnNumber
     }
 }
 
-/// A run in a lane of a group.
+/// A run in one lane of a group.
 #[derive(Clone)]
 struct Lane<'a> {
     index: usize,
     run: &'a PublishedRun,
-    /// Steps that are done.
+    /// Steps completed.
     step: u64,
     samples: Vec<f64>,
 }
@@ -354,13 +355,13 @@ impl<'a> Lane<'a> {
         }
     }
 
-    /// The next step of which the force is kept.
+    /// Returns the next step whose force is kept.
     fn next_sample(&self) -> Option<u64> {
         let (sampling, done) = (self.run.sampling?, self.samples.len() as u64);
         (done < sampling.count).then_some(sampling.step(done))
     }
 
-    /// Keeps the force of the last step if it is asked for; the forces of the run if it is at its end.
+    /// Keeps the force of the last step if it was requested. Returns the forces of the run if it is at its end.
     fn forces<R: Real>(&mut self, place: usize, group: &Group<R>) -> Option<PublishedForces> {
         let stiffness = self.run.stack.stiffness;
         if self.next_sample() == self.step.checked_sub(1) {
@@ -381,7 +382,8 @@ impl<'a> Lane<'a> {
     }
 }
 
-/// Steps until the wall of the next run starts or the next force is kept, not more than a block; walls that start now do.
+/// Starts the walls that move from now on. Returns the steps until the next wall starts or the next force is kept, at
+/// most a block.
 fn block<R: Real>(lanes: &[Option<Lane>], group: &mut Group<R>) -> u64 {
     let mut steps = STEPS_IN_A_BLOCK;
     for (place, lane) in lanes.iter().enumerate() {
@@ -405,7 +407,7 @@ struct Group<R: Real> {
     latest: R,
     /// The largest force of the wall before its first decrease.
     largest: R,
-    /// 1 until that decrease, 0 from then on.
+    /// 1 until that decrease, 0 afterwards.
     rises: R,
 }
 

@@ -1,11 +1,11 @@
-//! The numbers of the time stepping: doubles, double-doubles to measure rounding, or several doubles side by side, one
-//! for each of as many runs.
+//! The number types of the time stepping: doubles, double-doubles to measure rounding errors, or several doubles side
+//! by side, each for one run.
 
 use std::fmt::Debug;
 use std::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub};
 
-/// A real number, or one in each of several lanes. Every operation acts on each lane alone, and gives it the
-/// bits that it gives to a single number.
+/// A real number, or one in each of several lanes. Every operation acts on each lane separately, with the same bits as
+/// for a single number.
 pub trait Real:
     Copy
     + Debug
@@ -23,21 +23,21 @@ pub trait Real:
     /// Number of lanes.
     const LANES: usize;
 
-    /// `value` exactly, in every lane.
+    /// Returns `value` exactly, in every lane.
     fn like(self, value: f64) -> Self;
-    /// Square root.
+    /// Returns the square root.
     fn sqrt(self) -> Self;
-    /// Absolute value.
+    /// Returns the absolute value.
     fn abs(self) -> Self;
-    /// The lanes in which it is less than `other`.
+    /// Returns the lanes in which it is less than `other`.
     fn less(self, other: Self) -> Self::Mask;
-    /// `yes` where `mask` holds, `no` elsewhere.
+    /// Returns `yes` where `mask` holds, `no` elsewhere.
     fn select(mask: Self::Mask, yes: Self, no: Self) -> Self;
     /// Whether `mask` holds anywhere.
     fn any(self, mask: Self::Mask) -> bool;
     /// Whether `mask` holds everywhere.
     fn all(self, mask: Self::Mask) -> bool;
-    /// The number in one lane, to double precision.
+    /// Returns the number in one lane, to double precision.
     fn lane(self, lane: usize) -> f64;
     /// Copies one lane of `other`.
     fn set_lane(&mut self, lane: usize, other: Self);
@@ -45,10 +45,10 @@ pub trait Real:
     fn vectorize(self, work: impl Work);
 }
 
-/// A computation. Only what is inlined into it is compiled for the instruction set of the numbers; the rest gives the
-/// same bits, many times more slowly.
+/// A computation. Only code that is inlined into it is compiled for the instruction set of the numbers; other code
+/// gives the same bits, but many times more slowly.
 pub trait Work {
-    /// Executes it; must always be inlined.
+    /// Executes the computation; must always be inlined.
     fn carry_out(self);
 }
 
@@ -116,7 +116,7 @@ pub trait Composite<R: Real>: Clone {
         self.visit(other, &mut |number, other| number.set_lane(lane, *other));
     }
 
-    /// Itself where `mask` holds, `other` elsewhere.
+    /// Returns its own numbers where `mask` holds, and those of `other` elsewhere.
     #[inline(always)]
     fn or_where_not(mut self, mask: R::Mask, other: &Self) -> Self {
         self.visit(other, &mut |number, other| {
@@ -141,7 +141,7 @@ impl<R: Real, C: Composite<R>> Composite<R> for Vec<C> {
     }
 }
 
-/// Implements [`Composite`] for a struct whose named fields are all its numbers.
+/// Implements [`Composite`] for structs, given the named fields that hold their numbers.
 macro_rules! composite {
     ($($name:ident { $($field:ident),* }),* $(,)?) => {$(
         impl<R: $crate::dem::Real> $crate::dem::Composite<R> for $name<R> {

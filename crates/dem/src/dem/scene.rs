@@ -1,4 +1,4 @@
-//! Cylinders or spheres between plane walls, and one leapfrog step of them all.
+//! Cylinders or spheres between plane walls, and one leapfrog step for all of them.
 
 use super::contact::{Contact, ContactForce, ContactModel, Counterpart, SpringDashpot};
 use super::contact_state::{ContactState, Touch};
@@ -7,7 +7,7 @@ use super::real::{Composite, Real};
 use super::wall::PlaneWall;
 use crate::model::CYLINDER_INERTIA;
 
-/// A loop over all indices below a count, the first three unrolled.
+/// Loops over all indices below a count, with the first three unrolled.
 macro_rules! unrolled {
     ($index:ident below $count:ident $body:block) => {
         if $count > 0 {
@@ -27,7 +27,7 @@ macro_rules! unrolled {
     };
 }
 
-/// A loop over the bodies below a count: written out in the plane, where the compiler knows it.
+/// Loops over the bodies below a count; in the plane, where the compiler knows the count, the loop is unrolled.
 macro_rules! each_body {
     ($index:ident below $known:ident or $count:expr => $body:block) => {
         if G::IS_SMALL {
@@ -97,7 +97,7 @@ impl<R: Real, G: Geometry<R>> Body<R, G> {
         self.angle = self.angle.plus(self.spin.times(time_step));
     }
 
-    /// Difference of two centres, and its square.
+    /// Returns the difference of two centres, and its square.
     #[inline(always)]
     pub(super) fn apart([i, j]: [&Self; 2]) -> (G::Vector, R) {
         let apart = i.position.minus(j.position);
@@ -150,8 +150,8 @@ impl<R: Real, G: Geometry<R>> Contact<R, G> {
     }
 }
 
-/// Cylinders or spheres, walls and the state of all their contacts. Their numbers are known to the compiler, which keeps them in
-/// registers as far as possible.
+/// Cylinders or spheres, walls and the state of all their contacts. The numbers of bodies and walls are known at
+/// compile time, so that the compiler keeps values in registers as far as possible.
 #[derive(Debug, Clone)]
 pub struct Scene<
     const CYLINDERS: usize,
@@ -162,13 +162,14 @@ pub struct Scene<
 > {
     /// The cylinders, or spheres.
     pub cylinders: [Body<R, G>; CYLINDERS],
-    /// How many of them there are in space, the first ones; the others are skipped. In the plane there are all.
+    /// Number of spheres that exist in space, the first ones; the others are skipped. In the plane, all cylinders
+    /// exist.
     pub sphere_count: usize,
     /// The walls.
     pub walls: [PlaneWall<R>; WALLS],
     /// The walls that exist; the others are skipped.
     pub wall_exists: [bool; WALLS],
-    /// Contact law of every contact.
+    /// Contact law of all contacts.
     pub model: Model,
     /// Friction coefficient between cylinders.
     pub cylinder_friction: R,
@@ -207,7 +208,7 @@ where
     Model: ContactModel<R, G>,
     G: Geometry<R>,
 {
-    /// A scene without friction between cylinders and without gravity; every contact is free of stress.
+    /// A scene without friction between cylinders and without gravity, in which every contact is free of stress.
     pub fn new(
         cylinders: [Body<R, G>; CYLINDERS],
         walls: [PlaneWall<R>; WALLS],
@@ -232,27 +233,27 @@ where
         }
     }
 
-    /// Force of a wall on a cylinder, as of the last evaluation of the forces.
+    /// Force of a wall on a cylinder, from the last evaluation of the forces.
     pub fn wall_force(&self, wall: usize, cylinder: usize) -> &ContactForce<R, G> {
         &self.wall_contacts[wall][cylinder].force
     }
 
-    /// Force and torque on a cylinder, as of the last evaluation of the forces.
+    /// Force and torque on a cylinder, from the last evaluation of the forces.
     pub fn load(&self, cylinder: usize) -> &Load<R, G> {
         &self.loads[cylinder]
     }
 
-    /// Force between two cylinders, the one with the higher index first, as of the last evaluation of the forces.
+    /// Force between two cylinders, the higher index first, from the last evaluation of the forces.
     pub fn pair_force(&self, first: usize, second: usize) -> &ContactForce<R, G> {
         &self.pair_contacts[first][second].force
     }
 
-    /// What the contact of two cylinders remembers, the one with the higher index first.
+    /// Memory of the contact of two cylinders, the higher index first.
     pub(super) fn pair_memory(&mut self, first: usize, second: usize) -> &mut Model::Memory {
         &mut self.pair_contacts[first][second].memory
     }
 
-    /// What the contact of a wall with a cylinder remembers.
+    /// Memory of the contact of a wall with a cylinder.
     pub(super) fn wall_memory(&mut self, wall: usize, cylinder: usize) -> &mut Model::Memory {
         &mut self.wall_contacts[wall][cylinder].memory
     }
@@ -274,7 +275,7 @@ where
         self.move_walls();
     }
 
-    /// Evaluates the forces and advances, so many times. The contact forces are not kept.
+    /// Evaluates the forces and advances, `count` times. The contact forces are not kept.
     #[inline(always)]
     pub fn steps(&mut self, count: u64) {
         let mut loads = self.loads;
@@ -290,8 +291,9 @@ where
         }
     }
 
-    /// Adds the forces of the walls to the loads of all pairs, and advances. The walls of one body do not touch another, so
-    /// that each moves as soon as its own walls are evaluated, and its load stays in registers.
+    /// Adds the forces of the walls to `loads`, which hold those of the pairs, and advances the bodies. The walls of
+    /// one body do not affect another, so each body moves as soon as its own walls are evaluated, and its load stays
+    /// in registers.
     #[inline(always)]
     fn evaluate_walls_and_advance(&mut self, loads: &[Load<R, G>; CYLINDERS]) {
         let (dt, moment_of_inertia) = (self.time_step, self.moment_of_inertia);
@@ -323,7 +325,7 @@ where
         }
     }
 
-    /// Sets the loads to the weights and the forces of all pairs.
+    /// Sets the loads to the weights plus the forces of all pairs.
     #[inline(always)]
     fn evaluate_pairs<const KEEP: bool>(&mut self, loads: &mut [Load<R, G>; CYLINDERS]) {
         each_body!(first below CYLINDERS or self.sphere_count => {
@@ -441,7 +443,7 @@ impl<R: Real, G: Geometry<R>> Load<R, G> {
         *self = touches.choose(sum, *self);
     }
 
-    /// Adds the opposite of a force, and the torque that comes with it, where bodies touch.
+    /// Adds the opposite force and the same torque where bodies touch.
     #[inline(always)]
     fn react(&mut self, touches: Touch<R>, force: G::Vector, torque: G::Rotation) {
         let sum = Self {

@@ -1,4 +1,4 @@
-//! The stack: prepared, compressed, sampled.
+//! Runs of the stack: preparation, compression and sampling.
 
 use super::contact::{ContactModel, ConventionalModel, SpringDashpot};
 use super::double_double::DoubleDouble;
@@ -10,12 +10,12 @@ use super::stack_scene::{ConventionalStack, LoadedStack, SphereScene, StackScene
 use crate::model::Case;
 use crate::series::{Series, SeriesError};
 
-/// Work on the scene of a case, whichever it is.
+/// Work on the scene of a case, generic over the scene.
 pub(super) trait OnStack<R: Real> {
     /// The result.
     type Outcome;
 
-    /// Does the work on `stack`, that of the case at the start of its preparation.
+    /// Does the work on `stack`, the scene of the case at the start of its preparation.
     fn on<Stack: ConventionalStack<Number = R>>(self, stack: Stack) -> Self::Outcome;
 }
 
@@ -43,8 +43,8 @@ where
     }
 }
 
-/// Prepares and compresses the stack of `case`, and samples the compression as planned. The run is given up once
-/// `wanted` is false.
+/// Prepares and compresses the stack of `case`, and samples the compression as its protocol plans. The run is given up
+/// once `wanted` returns false.
 ///
 /// # Errors
 /// If the motion leaves the finite numbers, or the run is given up.
@@ -52,8 +52,8 @@ pub fn compress_stack(case: &Case, wanted: impl Fn() -> bool) -> Result<Series, 
     on_stack(case, 0.0, Compress { case, wanted })
 }
 
-/// The same in double-double arithmetic, 106 bits, at some forty times the cost: the difference from [`compress_stack`]
-/// is the round-off of the latter.
+/// Compresses the stack in double-double arithmetic with 106 bits, at some forty times the cost. The difference from
+/// [`compress_stack`] is the round-off of the latter.
 ///
 /// # Errors
 /// If the motion leaves the finite numbers, or the run is given up.
@@ -89,7 +89,7 @@ pub fn compress_stack_with<Model: ContactModel<f64>>(
     compress_stack_watched(case, StackScene::of(case, model, 0.0), wanted, |_| ())
 }
 
-/// Like [`compress_stack`], of a `stack` at the start of its preparation; `watch` receives every sampled state.
+/// Like [`compress_stack`], for a `stack` at the start of its preparation; `watch` receives every sampled state.
 pub(super) fn compress_stack_watched<Stack: LoadedStack>(
     case: &Case,
     stack: Stack,
@@ -106,7 +106,7 @@ pub(super) fn compress_stack_watched<Stack: LoadedStack>(
     Series::new(single.samples, case)
 }
 
-/// Supervises the one run of a stack.
+/// Supervisor of a single run.
 struct Single<Wanted, Watch> {
     case: Option<Case>,
     wanted: Wanted,

@@ -19,41 +19,41 @@ const SIDE_WALLS: [usize; 2] = [1, 2];
 pub(super) const TOP_WALL: usize = 3;
 const WALLS: usize = 4;
 
-/// Three cylinders on the floor, between the side walls of some preparations, under the top wall.
+/// Three cylinders on the floor and under the top wall, with the side walls that some preparations need.
 pub(super) type StackScene<R, Model> = Scene<3, WALLS, R, Model>;
 
-/// The spheres of a ring and the one on top, of any stack.
+/// The spheres of any stack: a ring, and one on top.
 pub(super) type SphereScene<R, Model> = Scene<MOST_BODIES, WALLS, R, Model, Space>;
 
 /// A stack with a run in each lane of its numbers.
 pub(super) trait LoadedStack {
-    /// Its numbers.
+    /// The type of its numbers.
     type Number: Real;
 
-    /// A number like those of the stack.
+    /// Returns a number like those of the stack.
     fn number(&self) -> Self::Number;
     /// Applies `action` to one lane, the run of `case`.
     fn act(&mut self, lane: usize, case: &Case, action: Action);
-    /// The state of one lane, the run of `case`, at the given step of the compression.
+    /// Returns the state of one lane, the run of `case`, at the given step of the compression.
     fn sample(&self, lane: usize, case: &Case, step: u64) -> Sample;
     /// Evaluates the forces.
     fn evaluate_forces(&mut self);
     /// Advances velocities, positions and walls.
     fn advance(&mut self);
-    /// Both, so many times; the contact forces are not kept.
+    /// Does both, `count` times; the contact forces are not kept.
     fn steps(&mut self, count: u64);
 }
 
-/// A stack whose contact law a convention describes.
+/// A stack whose contact law is built from a convention.
 pub(super) trait ConventionalStack: LoadedStack + Composite<Self::Number> {
     /// The stack of `case` at the start of its preparation, the same in every lane of numbers like `number`.
     fn of_case(case: &Case, number: Self::Number) -> Self;
 }
 
-/// Offset of a wall out of reach.
+/// Offset that puts a wall out of reach.
 const OUT_OF_REACH: f64 = f64::MIN;
 
-/// Centres of all bodies where they just touch.
+/// Centres of all bodies when they just touch.
 fn centres<R: Real, const BODIES: usize>(stack: &Stack, number: R) -> [[R; 3]; BODIES] {
     let initial = stack.initial_positions();
     let mut centres = std::array::from_fn(|body| {
@@ -61,7 +61,7 @@ fn centres<R: Real, const BODIES: usize>(stack: &Stack, number: R) -> [[R; 3]; B
         centre.map(|coordinate| number.like(coordinate))
     });
     if stack.bodies == 2 {
-        // To all digits of the numbers.
+        // To the full precision of the numbers.
         centres[TOP][1] = number.like(1.0) + number.like(3.0).sqrt();
     }
     centres
@@ -121,7 +121,7 @@ where
         }
     }
 
-    /// Puts the top wall onto the body on top, in one lane.
+    /// Puts the top wall onto the body on top, in one lane, and sets its speed.
     pub(super) fn lower_top_wall(&mut self, lane: usize, top: usize, speed: R) {
         let [_, top, _] = G::components(self.cylinders[top].position);
         let wall = &mut self.walls[TOP_WALL];
@@ -225,7 +225,7 @@ where
     }
 }
 
-/// Every number of one lane of a `stack`.
+/// Returns every number of one lane of a `stack`.
 pub(super) fn numbers<R: Real>(stack: &impl Composite<R>, lane: usize) -> Vec<f64> {
     let mut numbers = Vec::new();
     let mut collect = |number: &mut R, _: &R| numbers.push(number.lane(lane));
@@ -233,7 +233,7 @@ pub(super) fn numbers<R: Real>(stack: &impl Composite<R>, lane: usize) -> Vec<f6
     numbers
 }
 
-/// Sets every number of a `stack`, in every lane; `numbers` are as many as [`numbers`] gives.
+/// Sets every number of a `stack`, in every lane, from the `numbers` that [`numbers`] has returned.
 pub(super) fn set_numbers<R: Real>(stack: &mut impl Composite<R>, numbers: &[f64]) {
     let mut numbers = numbers.iter();
     let mut set = |number: &mut R, _: &R| {

@@ -15,7 +15,7 @@ use thiserror::Error;
 pub struct Case {
     /// The stack.
     pub stack: Stack,
-    /// Its contact law.
+    /// The contact convention.
     pub convention: ContactConvention,
     /// Preparation, compression and sampling.
     pub protocol: Protocol,
@@ -76,7 +76,7 @@ pub enum CaseError {
 }
 
 impl Case {
-    /// Every value in its range, or the first one that is not.
+    /// Checks every value; the error names the first that is out of range.
     pub fn validate(&self) -> Result<(), InvalidValue> {
         self.stack.validate()?;
         self.convention.validate()?;
@@ -100,26 +100,26 @@ impl Case {
         Err(InvalidValue::new(key, self.protocol.time_step, accepted))
     }
 
-    /// Time steps in all, preparation included.
+    /// Number of time steps, including the preparation.
     pub fn total_steps(&self) -> u64 {
         self.protocol.schedule().total_steps()
     }
 
-    /// SHA-256, in hexadecimal, of the case as compact JSON with its keys in the order of the fields
-    /// and its numbers in their shortest exact form. Equal cases have equal hashes on every machine.
+    /// Returns the SHA-256, in hexadecimal, of the case as compact JSON with keys in the order of the fields and
+    /// numbers in their shortest exact form. Equal cases have equal hashes on every machine.
     pub fn content_hash(&self) -> String {
         let json =
             serde_json::to_vec(self).expect("a case has only named fields and finite numbers");
         sha256_hex(&json)
     }
 
-    /// The case as it is kept in files: indented JSON with a final newline.
+    /// Returns the case as it is kept in files: indented JSON with a final newline.
     pub fn to_json(&self) -> String {
         let json = serde_json::to_string_pretty(self);
         json.expect("a case has only named fields and finite numbers") + "\n"
     }
 
-    /// Reads and validates a case from the content of the file at `path`, whose ending says the format.
+    /// Parses and validates a case from the content of the file at `path`, whose extension determines the format.
     pub fn parse(content: &[u8], path: &Path) -> Result<Self, CaseError> {
         let case: Self = CaseError::deserialized(content, path)?;
         case.validate().map_err(CaseError::in_file(path))?;
@@ -128,13 +128,13 @@ impl Case {
 }
 
 impl CaseError {
-    /// A value in the file at `path` is out of its range.
+    /// Turns a value out of its range into the error for the file at `path`.
     pub fn in_file(path: &Path) -> impl FnOnce(InvalidValue) -> Self {
         let path = path.to_owned();
         |invalid| Self::Invalid { path, invalid }
     }
 
-    /// The content of the file at `path`, whose ending says the format.
+    /// Parses the content of the file at `path`, whose extension determines the format.
     pub fn deserialized<T: DeserializeOwned>(content: &[u8], path: &Path) -> Result<T, Self> {
         let parsed = match path.extension().and_then(|extension| extension.to_str()) {
             Some("toml") => toml::from_slice(content).map_err(|error| error.to_string()),
@@ -208,7 +208,7 @@ mod tests {
         assert_eq!([json, toml], [case(), case()]);
     }
 
-    /// Pinned: a change of this hash orphans every stored and recorded run.
+    /// Pinned: a change of this hash would orphan every stored and recorded run.
     #[test]
     fn content_hash_is_stable_and_sees_every_value() {
         let hash = case().content_hash();

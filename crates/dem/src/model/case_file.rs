@@ -1,4 +1,4 @@
-//! A case as a file says it: what is left out has a default that depends on the rest.
+//! A case as its file gives it: missing values have defaults that depend on the other values.
 
 use super::{
     Case, CaseError, ContactConvention, InvalidValue, Preparation, Protocol, Sampling, Shortcuts,
@@ -41,7 +41,7 @@ pub struct PartialProtocol {
 }
 
 impl PartialProtocol {
-    /// The side walls that are written, the rest being the paper's for stacks of stiffness 1/ε.
+    /// Returns the side walls as given, with the paper's values for stacks of stiffness 1/ε where values are missing.
     pub fn side_walls(&self, epsilon: f64) -> Option<SideWalls> {
         let Some(Preparation::SideWalls(written)) = self.preparation else {
             return None;
@@ -58,7 +58,7 @@ impl PartialProtocol {
         })
     }
 
-    /// `planned` with what is written in place of its own; side walls are those of the plan.
+    /// Returns `planned` with the values given here in place of its own, except those of side walls.
     #[must_use]
     pub fn over(&self, planned: &Protocol) -> Protocol {
         let (sampling, own) = (&self.sampling, planned.sampling);
@@ -97,8 +97,8 @@ impl PartialProtocol {
 }
 
 impl Case {
-    /// Reads and validates a case from the content of the file at `path`, which may be partial: `complete` fills in
-    /// what is left out. A file that leaves nothing out is read as by [`Case::parse`].
+    /// Parses and validates a case from the content of the file at `path`. The case may be partial: `complete` fills
+    /// in what is missing. A complete case is read as by [`Case::parse`].
     ///
     /// # Errors
     /// If the file is no case, or `complete` fails.

@@ -1,8 +1,8 @@
-//! The one hash of the project.
+//! The hash function of the project.
 
 use sha2::{Digest, Sha256};
 
-/// SHA-256 of `bytes` in lower-case hexadecimal digits.
+/// Returns the SHA-256 of `bytes` in lower-case hexadecimal digits.
 pub fn sha256_hex(bytes: &[u8]) -> String {
     Sha256::digest(bytes)
         .iter()

@@ -1,6 +1,6 @@
-//! The problem as a run: a case of stack, contact convention and protocol, with its content hash.
+//! The problem as a run: a case consists of stack, contact convention and protocol, and has a content hash.
 //!
-//! Stack, convention and contact law are those of the crate `tristack-theory`, in the units of
+//! Stack, convention and contact law come from the crate `tristack-theory`, in the units of
 //! [`tristack_theory::model`].
 
 mod case;

@@ -5,26 +5,26 @@ use super::{ContactConvention, Stack};
 use super::{InvalidValue, positive, within};
 use serde::{Deserialize, Serialize};
 
-/// More rows than this are some half a million cylinders.
+/// Largest number of rows, which is about half a million cylinders.
 const MOST_ROWS: u32 = 1000;
 
-/// In each of its three phases.
+/// Largest number of steps in each of the three phases.
 const MOST_STEPS: f64 = 1e11;
 
-/// From this spacing on, 2√3, cylinders touch those two rows below.
+/// Upper limit of the spacing: from 2√3 on, cylinders touch those two rows below.
 const WIDEST_SPACING: f64 = 3.0;
 
-/// A pyramid of equal cylinders on a rough floor, its lowest row between two frictionless side walls, under
-/// gravity that rises smoothly from nothing.
+/// A pyramid of equal cylinders on a rough floor. Its lowest row stands between two frictionless side walls, and
+/// gravity rises smoothly from zero.
 ///
-/// The side walls keep the outer cylinders from rolling away: without them a pyramid with the paper's
-/// friction stands up to four rows only.
+/// The side walls keep the outer cylinders from rolling away: without them, a pyramid with the paper's friction stands
+/// only up to four rows.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Pyramid {
     /// Number of rows, which is also the number of cylinders in the lowest one.
     pub rows: u32,
-    /// Distance between the centres of neighbours in a row, in r. From 2, where they just touch.
+    /// Distance between the centres of neighbours in a row, in r; at least 2, where they just touch.
     pub spacing: f64,
     /// Friction, stiffness and stiffness ratio.
     pub groups: Stack,
@@ -36,13 +36,13 @@ pub struct Pyramid {
     pub ramp_steps: u64,
     /// Steps at rest after that.
     pub rest_steps: u64,
-    /// Steps after that, the time for which is measured.
+    /// Steps after that, whose run time is measured.
     pub timed_steps: u64,
 }
 
 impl Pyramid {
-    /// A pyramid of touching cylinders with the paper's friction between them and stiffness ratio. Gravity
-    /// rises within a few periods of its slowest oscillation, which lasts some three time units a row.
+    /// A pyramid of touching cylinders with the paper's stiffness ratio and the paper's friction between cylinders.
+    /// Gravity rises within a few periods of the slowest oscillation, which lasts some three time units per row.
     pub fn touching(rows: u32, stiffness: f64, convention: ContactConvention) -> Self {
         Self {
             rows,
@@ -56,13 +56,13 @@ impl Pyramid {
         }
     }
 
-    /// Number of cylinders n(n + 1)/2.
+    /// Number of cylinders, n(n + 1)/2.
     pub fn cylinder_count(&self) -> usize {
         let rows = self.rows as usize;
         rows * (rows + 1) / 2
     }
 
-    /// Time steps in all.
+    /// Total number of time steps.
     pub fn total_steps(&self) -> u64 {
         self.ramp_steps + self.rest_steps + self.timed_steps
     }
@@ -83,7 +83,7 @@ impl Pyramid {
         (0..self.rows).flat_map(row).collect()
     }
 
-    /// Distance of either side wall from the middle, in r: the lowest row just touches them.
+    /// Distance of each side wall from the middle, in r; the lowest row just touches the walls.
     pub fn half_width(&self) -> f64 {
         1.0 + 0.5 * self.spacing * f64::from(self.rows - 1)
     }
@@ -105,7 +105,7 @@ impl Pyramid {
         SAFETY * 2.0 / fastest
     }
 
-    /// Every value in its range, or the first one that is not.
+    /// Checks every value; the error names the first that is out of range.
     ///
     /// # Errors
     /// It names the key, the value and what is accepted.
@@ -133,7 +133,7 @@ impl Pyramid {
 }
 
 impl Pyramid {
-    /// The stepping of many cylinders knows linear springs alone.
+    /// Refuses laws that are not linear, which a packing does not support.
     fn validate_law(&self) -> Result<(), InvalidValue> {
         let law = self.convention.law;
         if law.is_linear() {

@@ -1,10 +1,11 @@
-//! Options that make a run shorter. Their effect on the result has to be measured; literal runs have none.
+//! Options that make a run shorter. Their effect on the result has to be measured; runs to the letter of the protocol
+//! have none.
 
 use super::{InvalidValue, within};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// A factor beyond which the first touch of the wall is a blow.
+/// Largest accepted factor; beyond it the first touch of the wall is a blow.
 const LARGEST_FACTOR: f64 = 1000.0;
 
 /// How the compression is made shorter. Offered by the native code.
@@ -24,9 +25,9 @@ impl Shortcuts {
     /// the floor does not slide.
     pub(crate) const SLOWING_TIME: f64 = 50.0;
 
-    /// A wall up to ten times as fast, but not beyond `fastest_wall`, for four fifths of the way to the predicted
-    /// yield, half of which is for slowing down; then the given speed, and an end at the drop. `None` where that
-    /// saves nothing.
+    /// A wall that is up to ten times as fast, but not faster than `fastest_wall`, for four fifths of the travel to
+    /// the predicted yield, half of which is for slowing down. Then it moves at the given speed, and the run ends at
+    /// the drop. `None` where this saves nothing.
     pub fn towards(predicted_travel: f64, wall_speed: f64, fastest_wall: f64) -> Option<Self> {
         const LARGEST: f64 = 10.0;
         let fast_until_travel = 0.8 * predicted_travel;
@@ -40,7 +41,7 @@ impl Shortcuts {
         })
     }
 
-    /// Every value in its range, or the first one that is not.
+    /// Checks every value; the error names the first that is out of range.
     ///
     /// `shortest` is the distance in which the wall slows down.
     pub(super) fn validate(&self, shortest: f64, wall_travel: f64) -> Result<(), InvalidValue> {

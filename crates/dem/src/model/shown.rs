@@ -1,8 +1,8 @@
-//! Text from outside in messages and results.
+//! Escaping of foreign text in messages and results.
 
 use std::path::Path;
 
-/// `path` in one line that a terminal shows as it is: control characters and bytes that are not text are
+/// Returns `path` as one line that a terminal shows literally: control characters and bytes that are not text are
 /// escaped, as in `new\\nline` and `caf\\xE9`.
 pub fn shown(path: &Path) -> String {
     let mut text = String::new();
@@ -15,8 +15,8 @@ pub fn shown(path: &Path) -> String {
     text
 }
 
-/// `text` with every character escaped that a terminal, or a page, does not show as it is: control characters, those
-/// that turn the direction of writing or have no width, and other line ends, as in `\\u{202e}`.
+/// Escapes every character of `text` that a terminal or a page does not show literally: control characters, those that
+/// change the direction of writing or have no width, and line separators, as in `\\u{202e}`.
 pub fn readable(text: &str) -> String {
     let mut readable = String::with_capacity(text.len());
     for char in text.chars() {
@@ -29,13 +29,13 @@ pub fn readable(text: &str) -> String {
     readable
 }
 
-/// The same for text of several lines.
+/// Escapes text of several lines, and keeps its line feeds.
 pub fn readable_lines(text: &str) -> String {
     let lines: Vec<String> = text.split('\n').map(readable).collect();
     lines.join("\n")
 }
 
-/// `word`, quoted for a shell where necessary.
+/// Quotes `word` for a shell where necessary.
 pub fn shell_quoted(word: &str) -> String {
     let plain = |char: char| char.is_ascii_alphanumeric() || "-_=.,:/+@%".contains(char);
     if !word.is_empty() && word.chars().all(plain) {

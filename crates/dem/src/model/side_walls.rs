@@ -4,11 +4,11 @@ use super::{InvalidValue, positive, within};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// Side walls may push as far as the bottom cylinders can give way without meeting under the top one.
+/// Largest push, up to which the bottom cylinders can give way without meeting under the top one.
 const FARTHEST_PUSH: f64 = 0.5;
 const FASTEST: f64 = 1.0;
-/// Height above its place, in r, from which the top cylinder is lowered, rounded to whole steps. Nothing
-/// touches it on its way, so that the height decides nothing.
+/// Height above its final position, in r, from which the top cylinder is lowered; the fall is rounded to whole steps.
+/// Nothing touches the cylinder on its way, so the height has no effect on the result.
 const LOWERED_BY: f64 = 0.2;
 
 /// Preparation between side walls (paper, supplement I.B), in every code in the same way:
@@ -44,13 +44,13 @@ pub struct SideWalls<N = f64> {
     pub rest_time: N,
 }
 
-/// The same counted in time steps, as every code runs it.
+/// The preparation between side walls counted in time steps, as every code runs it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SideWallSteps {
-    /// The preparation whose steps these are.
+    /// The preparation that is counted.
     pub walls: SideWalls,
-    /// Speed at which the walls move inwards, so that they come to A in whole steps: the withdrawal speed
-    /// but for that rounding; 0 where A = 0.
+    /// Speed at which the walls move inwards, so that they reach A in whole steps: the withdrawal speed up to that
+    /// rounding; 0 where A = 0.
     pub push_speed: f64,
     /// Distance by which the top cylinder is lowered.
     pub fall: f64,
@@ -69,7 +69,7 @@ pub struct SideWallSteps {
 }
 
 impl SideWallSteps {
-    /// All of them.
+    /// Total number of steps.
     pub fn total(&self) -> u64 {
         let until_settled = self.push_steps + self.hold_steps + self.fall_steps + self.settle_steps;
         until_settled + self.withdrawal_steps + self.rest_steps
@@ -88,10 +88,10 @@ impl SideWalls {
     /// v_wall of the paper (supplement I.B).
     pub(crate) const PAPER_WITHDRAWAL_SPEED: f64 = 1e-3;
 
-    /// The paper's preparation with walls pushed in by A = `push`, for stacks of stiffness 1/ε.
+    /// The paper's preparation for stacks of stiffness 1/ε, with walls pushed in by A = `push`.
     ///
-    /// The walls are withdrawn by A + 4ε; the bottom cylinders follow by A/3 + 0.2 ε or so. Rests of 400 time
-    /// units leave a stack that rings by less than 10⁻⁹ of its weight.
+    /// The walls are withdrawn by A + 4ε; the bottom cylinders follow by about A/3 + 0.2 ε. After rests of 400 time
+    /// units the stack rings by less than 10⁻⁹ of its weight.
     pub fn paper(push: f64, epsilon: f64) -> Self {
         const BEYOND: f64 = 4.0;
         const REST: f64 = 400.0;
@@ -106,7 +106,7 @@ impl SideWalls {
         }
     }
 
-    /// Every duration in steps of `time_step`, rounded by `rounded` to whole units of at least one.
+    /// Counts every duration in steps of `time_step`; `rounded` rounds to whole units, at least one.
     pub(super) fn steps(&self, time_step: f64, rounded: impl Fn(f64) -> u64) -> SideWallSteps {
         let pushes = self.push > 0.0;
         let push_steps = if pushes {
@@ -124,13 +124,13 @@ impl SideWalls {
             hold_steps: rounded(self.settle_time),
             fall_steps,
             settle_steps: rounded(self.settle_time),
-            // One unit more, so that rounding does not leave the walls in touch.
+            // One more unit, so that rounding does not leave the walls in contact.
             withdrawal_steps: rounded(self.withdrawal / self.withdrawal_speed) + rounded(0.0),
             rest_steps: rounded(self.rest_time),
         }
     }
 
-    /// Every value in its range, or the first one that is not; no phase longer than `longest`.
+    /// Checks every value, and that no phase is longer than `longest`; the error names the first that is out of range.
     pub(super) fn validate(&self, longest: f64) -> Result<(), InvalidValue> {
         let key = |name: &str| format!("protocol.preparation.{name}");
         within(&key("push"), self.push, 0.0, FARTHEST_PUSH)?;

@@ -6,7 +6,7 @@ use schemars::{JsonSchema, Schema};
 use serde::Deserialize;
 use serde_json::json;
 
-/// Stiffness 1/ε of a case file that names none: soft enough for a run of seconds.
+/// Default stiffness 1/ε of case files: soft enough for a run of seconds.
 const USUAL_STIFFNESS: f64 = 100.0;
 
 /// Three equal cylinders under gravity on a rough floor.
@@ -36,7 +36,7 @@ pub struct WrittenStack {
     pub arrangement: Arrangement,
 }
 
-/// Adds the other names of the keys, which JSON Schema does not know as such.
+/// Adds the alternative names of the keys, which JSON Schema cannot express as aliases.
 fn with_short_names(schema: &mut Schema) {
     let names = [
         ("floor_friction", "mu"),
@@ -72,7 +72,7 @@ fn paper_cylinder_friction() -> f64 {
 }
 
 impl WrittenStack {
-    /// The stack, in a law of this power.
+    /// Returns the stack, with the default stiffness ratio of a law of this power where none is given.
     pub fn in_law(&self, power: Power) -> Stack {
         let usual = Stack::usual_stiffness_ratio(power);
         Stack {

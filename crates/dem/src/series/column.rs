@@ -1,25 +1,25 @@
-//! Columns of the files that codes deliver, each declared once.
+//! Columns of the result files of codes, each declared once.
 
-/// One column of the rows `R` of a file.
+/// A column of the rows `R` of a file.
 #[derive(Debug)]
 pub struct Column<R> {
-    /// Its name in the header.
+    /// Name in the header.
     pub name: &'static str,
-    /// Its unit.
+    /// Unit.
     pub unit: &'static str,
-    /// Its meaning, as tables of the documents have it.
+    /// Meaning, for the tables in the documents.
     pub meaning: &'static str,
     /// Whether a file may leave it out.
     pub is_optional: bool,
-    /// The value in a row.
+    /// Returns the value in a row.
     pub value: fn(&R) -> f64,
-    /// Sets the value; false if it cannot be that number.
+    /// Sets the value in a row; returns false if the column cannot hold that number.
     pub set: fn(&mut R, f64) -> bool,
 }
 
 /// A number in a row.
 pub(super) trait Number: Copy {
-    /// `value` as a number of this type, if it is one.
+    /// Converts `value` to this type; `None` if that is not exact.
     fn of(value: f64) -> Option<Self>;
 }
 
@@ -31,7 +31,7 @@ impl Number for f64 {
 
 impl Number for u64 {
     fn of(value: f64) -> Option<Self> {
-        /// Up to here every whole number is a double.
+        /// Up to here, doubles represent every whole number.
         const MOST: f64 = (1_u64 << f64::MANTISSA_DIGITS) as f64;
         let is_count = value.fract() == 0.0 && (0.0..=MOST).contains(&value);
         is_count.then_some(value as Self)
@@ -39,7 +39,7 @@ impl Number for u64 {
 }
 
 /// Declares the rows of a file by their columns, in order: name, type, unit and meaning, and `optional` if a file may
-/// leave the column out; and a further field, which is left out of files where it has its default.
+/// leave the column out. One further field, with attributes of its own, is not a column.
 macro_rules! columns {
     ($(#[$doc:meta])* $row:ident of $file:ident, $count:literal, and $(#[$more:meta])* $further:ident: $further_kind:ty:
      $($name:ident: $kind:ty, $unit:literal, $meaning:literal $(, $optional:ident)?;)*) => {

@@ -1,34 +1,35 @@
-//! Velocities and accelerations from rows at equal distances in time.
+//! Velocities and accelerations from equally spaced rows.
 
 use super::sample::Sample;
 
 /// Rounding of the largest coordinate of the stack, 1 + √3.
 pub(super) const COORDINATE: f64 = 3.0 * f64::EPSILON;
 
-/// Time in which the stack rings, in √(m/k_n): a restitution of 0.7 takes some ten.
+/// Time for which the stack rings, in √(m/k_n); with a restitution of 0.7 it is about ten.
 const RINGING_TIME: f64 = 10.0;
 
-/// The time derivatives of a coordinate.
+/// Time derivatives of a coordinate.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Rates {
     pub(super) velocity: f64,
     pub(super) acceleration: f64,
-    /// How far the differences of second order are from those of fourth.
+    /// Difference between the formulas of second and of fourth order.
     pub(super) velocity_error: f64,
     pub(super) acceleration_error: f64,
 }
 
-/// Five rows at equal distances in time.
+/// Five rows that are equally spaced in time.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct FiveRows<'a> {
     pub(super) rows: &'a [Sample; 5],
-    /// Rounding of a coordinate.
+    /// Rounding error of a coordinate.
     unit: f64,
 }
 
 impl<'a> FiveRows<'a> {
-    /// The rows around `row`, two on either side. The first row of a series is left out: forces of some codes belong
-    /// to another moment there. Coordinates are rounded by `unit`. `None` if there are none, or at other distances.
+    /// The rows around `row`, two on each side; coordinates are rounded by `unit`. `None` if there are not enough
+    /// rows, or if they are not equally spaced. The first row of a series is never used, because forces of some codes
+    /// belong to another moment there.
     pub(super) fn around(samples: &'a [Sample], row: usize, unit: f64) -> Option<Self> {
         let first = row.checked_sub(2).filter(|&first| first > 0)?;
         let rows: &[Sample; 5] = samples.get(first..first + 5)?.try_into().ok()?;
@@ -39,24 +40,24 @@ impl<'a> FiveRows<'a> {
             .then_some(Self { rows, unit })
     }
 
-    /// Rounding of a coordinate.
+    /// Rounding error of a coordinate.
     pub(super) fn unit(self) -> f64 {
         self.unit
     }
 
-    /// Time between two of them.
+    /// Time between two successive rows.
     pub(super) fn interval(self) -> f64 {
         self.rows[3].time - self.rows[2].time
     }
 
-    /// Noise of a coordinate: it rounds in every step, and the stack remembers each rounding while it rings.
+    /// Noise of a coordinate: it is rounded in every step, and the stack remembers each rounding error while it rings.
     pub(super) fn rounding(self) -> f64 {
         let time_step = self.rows[3].time / self.rows[3].step as f64;
         self.unit
             .max(COORDINATE * (RINGING_TIME / time_step).max(1.0).sqrt())
     }
 
-    /// Central differences in the middle.
+    /// Returns central differences at the middle row.
     pub(super) fn rates(self, coordinate: impl Fn(&Sample) -> f64) -> Rates {
         let middle = coordinate(&self.rows[2]);
         let [before, left, _, right, after] =

@@ -1,17 +1,17 @@
-//! The digits with which a code has printed a series, read off its numbers.
+//! The number of digits with which a code has printed a series, inferred from its numbers.
 
 use super::column::Column;
 use super::differences::COORDINATE;
 use super::sample::{ANGLE, FORCE, LENGTH, Sample};
 use serde::{Deserialize, Serialize};
 
-/// Digits with which the rounding of numbers is far below every tolerance for micro-tests and trajectories.
+/// Number of digits at which rounding is far below every tolerance for micro-tests and trajectories.
 pub const ENOUGH_DIGITS: u32 = 13;
-/// Digits that give a number of double precision back exactly.
+/// Number of digits that reproduce any double exactly.
 const EXACT: u32 = 17;
-/// Rows after the peak whose friction is read.
+/// Rows after the peak from which the friction is read.
 const ROWS_AFTER_PEAK: usize = 4;
-/// The forces, on which the yield force depends.
+/// The force columns, on which the yield force depends.
 fn forces() -> impl Iterator<Item = &'static Column<Sample>> {
     Sample::EVERY.iter().filter(|column| column.unit == FORCE)
 }
@@ -25,14 +25,14 @@ fn coordinates() -> impl Iterator<Item = &'static Column<Sample>> {
 /// Largest rounding of the numbers of a series, in its own units.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Rounding {
-    /// Of a coordinate.
+    /// Rounding error of a coordinate.
     pub(super) coordinate: f64,
-    /// Of a force.
+    /// Rounding error of a force.
     pub(super) force: f64,
 }
 
 impl Rounding {
-    /// The rounding in `samples`: that of double precision, or that of printing.
+    /// Infers the rounding errors in `samples`: those of double precision, or those of printing.
     pub(super) fn read(samples: &[Sample]) -> Self {
         let half_unit = |column: &'static Column<Sample>| {
             let printed = precision(samples.iter().map(column.value));
@@ -49,11 +49,11 @@ impl Rounding {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PrintedDigits {
-    /// Significant digits of the largest numbers, in the coarsest of the columns that decide.
+    /// Significant digits of the largest numbers, in the coarsest column that matters.
     pub digits: u32,
-    /// The same in the finest of these columns; 17 if one has all digits.
+    /// Significant digits of the largest numbers in the finest of these columns; 17 if one has all digits.
     pub finest: u32,
-    /// Half a unit of the last place of these numbers, the largest of all columns that decide, in m g.
+    /// Half a unit in the last place of these numbers, in m g; the largest over all columns that matter.
     pub half_unit: f64,
 }
 
@@ -64,12 +64,12 @@ impl PrintedDigits {
         half_unit: 0.0,
     };
 
-    /// The digits of `samples`, forces in units of k_n r, which is `stiffness` m g; `None` if every column that
-    /// decides has all of them.
+    /// Infers the digits of `samples`, with forces in units of k_n r, which is `stiffness` m g; `None` if every column
+    /// that matters has all digits.
     ///
-    /// A column is printed with as many digits as its longest number: others may end in zeros, which are cut off.
-    /// Fixed decimals are the same as significant digits for the largest numbers of a column, and it is their last
-    /// place that counts.
+    /// A column is taken to be printed with as many digits as its longest number, since trailing zeros of others may
+    /// be cut off. For the largest numbers of a column, fixed decimals are the same as significant digits, and it is
+    /// the last place of these numbers that counts.
     pub(super) fn read(samples: &[Sample], stiffness: f64) -> Option<Self> {
         let force = |index: &usize| samples[*index].wall_force;
         let peak = (0..samples.len()).max_by(|i, j| force(i).total_cmp(&force(j)))?;
@@ -88,7 +88,7 @@ impl PrintedDigits {
     }
 }
 
-/// Significant digits of the longest of `values`, up to those that give every number back.
+/// Returns the number of significant digits of the longest of `values`, at most those that reproduce every number.
 pub fn most_digits(values: impl Iterator<Item = f64>) -> u32 {
     let mut most = 0;
     for value in values.filter(|value| *value != 0.0) {
@@ -100,10 +100,10 @@ pub fn most_digits(values: impl Iterator<Item = f64>) -> u32 {
     most
 }
 
-/// The precision of a column; `None` if it holds nothing but zeros.
+/// Returns the precision of a column; `None` if it holds nothing but zeros and NaN.
 fn precision(values: impl Iterator<Item = f64>) -> Option<PrintedDigits> {
     let (mut digits, mut highest) = (0, i32::MIN);
-    // What is not reported is not a number.
+    // A value that is not reported is NaN.
     for value in values.filter(|value| *value != 0.0 && !value.is_nan()) {
         let (own, exponent) = decimal(value);
         if own >= EXACT {
@@ -120,7 +120,8 @@ fn precision(values: impl Iterator<Item = f64>) -> Option<PrintedDigits> {
     })
 }
 
-/// Number of significant digits of the shortest decimal that gives `value` back, and the exponent of its first.
+/// Returns the number of significant digits of the shortest decimal that reproduces `value`, and the exponent of the
+/// first digit.
 fn decimal(value: f64) -> (u32, i32) {
     let text = format!("{value:e}");
     let (mantissa, exponent) = text.split_once('e').unwrap_or((&text, "0"));

@@ -1,6 +1,6 @@
 //! The drop of the wall force after its peak.
 
-/// Least number of rows since the largest force, which distinguishes a peak from a wiggle.
+/// Least number of rows after the largest force, to distinguish a peak from a wiggle.
 const ROWS_SINCE_PEAK: usize = 5;
 
 /// Watches the wall force row by row.
@@ -21,7 +21,7 @@ impl DropWatch {
         }
     }
 
-    /// Adds the force of the next row; true once it has dropped.
+    /// Adds the force of the next row; returns true once the force has dropped.
     pub(crate) fn has_dropped(&mut self, force: f64) -> bool {
         if force > self.highest {
             self.highest = force;

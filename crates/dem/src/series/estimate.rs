@@ -1,4 +1,4 @@
-//! The yield force read off a series, by the two estimators of the field.
+//! The yield force of a series, by the two estimators of the field.
 
 use super::differences::FiveRows;
 use super::digits::{PrintedDigits, Rounding};
@@ -10,37 +10,37 @@ use super::samples::Series;
 use crate::model::{Case, ContactLaw, CoulombOperand, SlidingSpring, Stack};
 use serde::{Deserialize, Serialize};
 
-/// Rows needed on both sides of the peak.
+/// Number of rows needed on each side of the peak.
 const ROWS_AROUND_PEAK: usize = 4;
 
-/// A force read off a series, with what the spacing of the rows may have cost.
+/// A force estimated from a series, with the possible error from the spacing of the rows.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Estimate {
     /// F = f/(m g).
     pub force: f64,
     /// Distance between the interpolations of two orders, in m g.
     pub sampling: f64,
-    /// Factor by which an error of the recorded forces is amplified in it.
+    /// Factor by which the estimate amplifies an error of the recorded forces.
     pub sensitivity: f64,
 }
 
-/// Both estimators; absent where the series does not show what they look for.
+/// Both estimates; each is absent where the series does not show what it needs.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct YieldEstimates {
     /// Wall force when a floor contact begins to slide.
     pub slip: Option<Estimate>,
     /// Largest wall force, the paper's definition of the yield force.
     pub peak: Option<Estimate>,
-    /// |t|/n of the floor contacts while they slide, as measured.
+    /// |t|/n of the floor contacts while they slide, as measured from the series.
     pub sliding_friction: Option<f64>,
     /// The first row between slip and peak in which a floor contact does not slide: there is no onset then.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub departure: Option<Departure>,
-    /// Largest |q|/a, tangential over normal force, that the contacts of cylinder 1 surely carry, in steps of 1e-9: so much
-    /// friction they have.
+    /// Largest |q|/a, tangential over normal force, that the contacts of cylinder 1 surely carry, rounded down to a
+    /// multiple of 1e-9: they have at least this much friction.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub pair_friction: Option<f64>,
-    /// The digits with which the code has printed the forces; absent if it has printed all of them.
+    /// The digits with which the code has printed the forces; absent if it has printed all digits.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub printed: Option<PrintedDigits>,
 }
@@ -51,12 +51,12 @@ pub struct YieldEstimates {
 pub struct Departure {
     /// Steps since the wall began to move.
     pub step: u64,
-    /// |t|/n there.
+    /// |t|/n in that row.
     pub ratio: f64,
 }
 
 impl YieldEstimates {
-    /// Reads both estimators off `series`, the run of `case`.
+    /// Reads both estimates from `series`, the run of `case`.
     pub fn read(series: &Series, case: &Case) -> Self {
         let stiffness = case.stack.stiffness;
         let in_weights = |estimate: Estimate| Estimate {
@@ -73,7 +73,7 @@ impl YieldEstimates {
             sliding.and_then(|(row, friction)| row_beyond(&samples[..=row], friction, &case.stack));
         let slides = beyond.zip(sliding);
         let slides = slides.map(|(beyond, (row, friction))| (beyond, row, friction));
-        // Where cylinders 2 and 3 touch, the floor slides no faster than the load grows, and sticks now and then.
+        // While cylinders 2 and 3 touch, the floor slides no faster than the load grows, and sticks now and then.
         let is_last = |beyond: usize| samples[beyond].bottom_overlap(&case.stack) <= 0.0;
         let ends = slides.filter(|&(beyond, ..)| {
             reports(samples, |row| of_floor(row, &case.stack)) && is_last(beyond)
@@ -96,15 +96,15 @@ impl YieldEstimates {
     }
 }
 
-/// Index of the row with the largest wall force, if the series goes on for some rows on both sides.
+/// Returns the index of the row with the largest wall force, if the series has enough rows on both sides.
 fn peak_row(samples: &[Sample]) -> Option<usize> {
     let force = |index: usize| samples[index].wall_force;
     let highest = (0..samples.len()).max_by(|&i, &j| force(i).total_cmp(&force(j)))?;
     (highest >= ROWS_AROUND_PEAK && highest + ROWS_AROUND_PEAK < samples.len()).then_some(highest)
 }
-/// Largest |t|/n of the floor contacts at the peak and in the rows after it, when they slide and their
-/// force is capped. It is measured, not taken from the input of the code, so that a wrong friction
-/// in the code shows in the yield force.
+/// Returns the largest |t|/n of the floor contacts at the peak and in the rows after it, when they slide and their
+/// force is capped. It is measured, not taken from the input of the code, so that a wrong friction in the code shows
+/// in the yield force.
 fn sliding_friction(samples: &[Sample], peak_row: usize, stack: &Stack) -> Option<f64> {
     let rows = &samples[peak_row..=peak_row + ROWS_AROUND_PEAK];
     let contacts = rows.iter().flat_map(|row| row.floor_contacts(stack));
@@ -115,14 +115,14 @@ fn sliding_friction(samples: &[Sample], peak_row: usize, stack: &Stack) -> Optio
     (largest > 0.0).then_some(largest)
 }
 
-/// μ n − |t| of the floor contact that is closer to sliding.
+/// Returns μ n − |t| of the floor contact that is closer to sliding.
 fn slip_margin(sample: &Sample, friction: f64, stack: &Stack) -> f64 {
     let contacts = sample.floor_contacts(stack);
     let margins = contacts.map(|contact| friction * contact.normal - contact.friction());
     margins.fold(f64::INFINITY, f64::min)
 }
 
-/// The first row at which the straight line through the slip margins of the two rows before it has reached zero.
+/// Returns the first row at which the straight line through the slip margins of the two rows before has reached zero.
 fn row_beyond(samples: &[Sample], friction: f64, stack: &Stack) -> Option<usize> {
     let margin = |row: usize| slip_margin(&samples[row], friction, stack);
     let line_reaches_zero = |row: &usize| {
@@ -133,10 +133,10 @@ fn row_beyond(samples: &[Sample], friction: f64, stack: &Stack) -> Option<usize>
     (2..samples.len()).find(line_reaches_zero)
 }
 
-/// Part of the friction below which a floor contact surely sticks.
+/// Fraction of the friction below which a floor contact surely sticks.
 const SURELY_STICKS: f64 = 1.0 - 1e-3;
 
-/// The rows before the floor contacts come near to sliding, at the friction that is measured or, where nothing
+/// Returns the rows before the floor contacts come close to sliding, at the measured friction or, where nothing
 /// slides, at that of `stack`.
 pub(super) fn sticking_rows<'a>(samples: &'a [Sample], stack: &Stack) -> &'a [Sample] {
     let measured = peak_row(samples).and_then(|row| sliding_friction(samples, row, stack));
@@ -146,10 +146,11 @@ pub(super) fn sticking_rows<'a>(samples: &'a [Sample], stack: &Stack) -> &'a [Sa
     &samples[..end.map_or(samples.len(), |end| end + 1)]
 }
 
-/// Largest relative distance of |t|/n from the friction in a contact that slides: codes cap the force at μ n itself.
+/// Largest relative difference between |t|/n of a sliding contact and the friction: codes cap the force at exactly μ
+/// n.
 const AT_THE_LIMIT: f64 = 1e-9;
 
-/// What |t|/n of a sliding floor contact may be under the convention of a code.
+/// The range of |t|/n that the convention of a code allows for a sliding floor contact.
 struct Sliding<'a> {
     case: &'a Case,
     wall: ContactLaw,
@@ -172,8 +173,8 @@ impl<'a> Sliding<'a> {
         sample.first(&self.case.stack)
     }
 
-    /// The first row from `beyond`, which lies after the onset, to `peak_row` in which a floor contact is away from
-    /// its limit, further than the convention allows.
+    /// Returns the first row from `beyond`, which lies after the onset, to `peak_row` in which a floor contact is
+    /// further from its limit than the convention allows.
     fn departure(&self, samples: &[Sample], beyond: usize, peak_row: usize) -> Option<Departure> {
         let mut has_slid = false;
         (beyond..=peak_row).find_map(|row| {
@@ -197,16 +198,16 @@ impl<'a> Sliding<'a> {
         })
     }
 
-    /// Distance of |t|/n from the friction that rounding explains, relative to it.
+    /// Relative difference between |t|/n and the friction that rounding explains.
     fn at_the_limit(&self, sample: &Sample) -> f64 {
         let printed = (1.0 + self.friction) * self.rounding.force;
         AT_THE_LIMIT + 2.0 * printed / (self.friction * self.first(sample).normal)
     }
 
-    /// How far |t|/n may be below and above the friction in `row`, relative to it.
+    /// Returns how far |t|/n may be below and above the friction in `row`, relative to it.
     ///
-    /// A frozen spring sticks again when the normal force has grown, for one step. Where the limit is compared with the
-    /// spring alone, damping comes on top of it until the spring has reached the limit.
+    /// A frozen spring sticks again for one step when the normal force has grown. Where Coulomb's limit applies to the
+    /// spring alone, damping is added until the spring has reached the limit.
     fn allowed(&self, samples: &[Sample], row: usize, has_slid: bool) -> [f64; 2] {
         let convention = &self.case.convention;
         let below = match convention.sliding_spring {
@@ -221,7 +222,7 @@ impl<'a> Sliding<'a> {
         [below, above].map(|allowed| allowed + exact)
     }
 
-    /// Growth of the normal force of the floor in one step, relative to it.
+    /// Relative growth of the normal force of the floor in one step.
     fn growth_in_a_step(&self, samples: &[Sample], row: usize) -> f64 {
         let (before, after) = (
             &samples[row - 1],
@@ -255,11 +256,12 @@ impl<'a> Sliding<'a> {
     }
 }
 
-/// A kink in the motion spoils the differences in five rows; so many in a row contain one without it.
+/// A kink in the motion spoils the differences over five rows that contain it; of this many successive ones, at least
+/// one does not contain it.
 const ROWS_BEYOND_A_KINK: usize = 6;
 
-/// Largest ratio |q|/a that is surely carried in some successive rows from `beyond` on, while the top wall presses and
-/// cylinder 2 stands on the floor.
+/// Returns the largest ratio |q|/a that is surely carried in several successive rows from `beyond` on, while the top
+/// wall presses and cylinder 2 stands on the floor.
 fn pair_friction(
     samples: &[Sample],
     beyond: usize,
@@ -282,15 +284,15 @@ fn pair_friction(
     (largest > 0.0).then(|| (1e9 * largest).floor() / 1e9)
 }
 
-/// Wall force as a function of the slip margin, extrapolated to margin 0 from four rows that certainly
-/// still stick, all before the peak: rows at which the contact slides say nothing about when it began to.
+/// Extrapolates the wall force, as a function of the slip margin, to margin 0 from four rows that certainly still
+/// stick, all before the peak. Rows in which the contact slides do not tell when it began to slide.
 ///
 /// The margin falls smoothly while the contact sticks. The onset lies before the first row at which the
 /// straight line through the two rows before it has reached zero; the last of these is left out too, since
 /// it may lie just beyond. A threshold on the margin itself would not do, because a contact whose spring
 /// is frozen while it slides (the paper's law) sticks again now and then as the normal force grows.
 ///
-/// A force outside the rows that enclose the onset is no onset but noise continued, and is refused.
+/// A force outside the rows that enclose the onset is extrapolated noise, and is rejected.
 fn slip_onset(samples: &[Sample], beyond: usize, friction: f64, stack: &Stack) -> Option<Estimate> {
     let rows = beyond.checked_sub(5)?..beyond - 1;
     let last_sticking = samples[rows.end - 1].wall_force;
@@ -310,8 +312,8 @@ fn slip_onset(samples: &[Sample], beyond: usize, friction: f64, stack: &Stack) -
     })
 }
 
-/// Vertex of the parabola through the highest row and its neighbours, compared with the one through the
-/// neighbours one further away.
+/// Vertex of the parabola through the highest row and its neighbours, compared with that through the highest row and
+/// the next but one on each side.
 fn peak(samples: &[Sample], highest: usize) -> Estimate {
     let vertex = |reach: usize| {
         parabola_vertex([highest - reach, highest, highest + reach].map(|index| {
@@ -327,7 +329,8 @@ fn peak(samples: &[Sample], highest: usize) -> Estimate {
     }
 }
 
-/// Largest value of the parabola through three points, the middle one at argument 0 and highest.
+/// Returns the largest value of the parabola through three points, of which the middle one is the highest and at
+/// argument 0.
 fn parabola_vertex([left, middle, right]: [(f64, f64); 3]) -> f64 {
     let left_slope = (middle.1 - left.1) / (middle.0 - left.0);
     let right_slope = (right.1 - middle.1) / (right.0 - middle.0);

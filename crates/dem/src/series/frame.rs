@@ -1,10 +1,10 @@
-//! The stack at one moment, with every force that is known then: what figures and animations are made of.
+//! The stack at one moment, with all forces known at that moment: the input of figures and animations.
 
 use super::sample::{Placement, Sample};
 use super::samples::Series;
 use crate::model::{Case, InvalidValue, PAPER_BODIES, Place, Stack};
 
-/// A cylinder or sphere of radius 1 as it is at one moment. Lengths in r.
+/// A cylinder or sphere of radius 1 at one moment. Lengths in r.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PlacedBody {
     /// Centre, [x, y, z] with y upwards and the floor at height 0; cylinders have z = 0.
@@ -15,10 +15,10 @@ pub struct PlacedBody {
     pub velocity: Option<[f64; 3]>,
 }
 
-/// Body or wall that presses on a body.
+/// The body or wall that presses on a body.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Partner {
-    /// The body of that index.
+    /// The body with this index.
     Body(usize),
     /// The floor.
     Floor,
@@ -29,15 +29,15 @@ pub enum Partner {
 /// A contact that bears a force. Forces in k_n r.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ContactPoint {
-    /// Index of the body on which the force acts; on a partner that is a body, its opposite does.
+    /// Index of the body on which the force acts; the opposite force acts on the partner.
     pub body: usize,
     /// The body or wall that it touches.
     pub partner: Partner,
-    /// Where: half-way into the overlap of two bodies, on the surface of a wall.
+    /// Position: half-way into the overlap of two bodies, or on the surface of a wall.
     pub position: [f64; 3],
     /// Unit normal n, towards the body.
     pub normal: [f64; 3],
-    /// Unit tangent t: (−n_y, n_x, 0) of cylinders, the direction of the tangential force of spheres, 0 where there is
+    /// Unit tangent t: (−n_y, n_x, 0) for cylinders, the direction of the tangential force for spheres, 0 if there is
     /// none.
     pub tangent: [f64; 3],
     /// Normal force along n, positive in compression.
@@ -95,12 +95,12 @@ impl ContactPoint {
         }
     }
 
-    /// The normal part of the force on the body.
+    /// The normal component of the force on the body.
     pub fn normal_vector(&self) -> [f64; 3] {
         self.normal.map(|component| self.normal_force * component)
     }
 
-    /// The tangential part of the force on the body.
+    /// The tangential component of the force on the body.
     pub fn tangential_vector(&self) -> [f64; 3] {
         self.tangent
             .map(|component| component * self.tangential_force)
@@ -134,18 +134,18 @@ pub struct Frame {
     pub contacts: Vec<ContactPoint>,
 }
 
-/// All sampled moments of one run.
+/// The frames of one run.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Frames {
-    /// In order of time.
+    /// Frames in order of time.
     pub frames: Vec<Frame>,
     /// Whether the forces between the bodies are among the contacts.
     pub pair_forces_known: bool,
 }
 
 impl Frames {
-    /// Frames of the series of a case: the forces of the walls, and none between the bodies. The wall starts where it
-    /// touches the top body at the first row, and moves down at its speed.
+    /// Builds frames from the series of a case, with the forces of the walls but not those between bodies. The wall
+    /// starts where it touches the top body in the first row, and moves down at its speed.
     ///
     /// # Errors
     /// If the code does not report all positions and angles, with those that are absent.

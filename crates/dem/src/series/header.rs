@@ -1,4 +1,4 @@
-//! The header of a result: columns in any order and under other names, with factors.
+//! The header of a result file: columns in any order, possibly under other names and with factors.
 
 use super::SeriesError;
 use super::column::Column;
@@ -6,31 +6,31 @@ use crate::model::readable;
 use std::collections::BTreeMap;
 use std::io::Read;
 
-/// A column of a result that is named otherwise, or reported in another unit or direction.
+/// Where a declared column is found in a result: under another name, or in another unit or direction.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ColumnSource {
-    /// Its name in the result.
+    /// Name of the column in the result.
     pub from: String,
-    /// The number by which its values are multiplied.
+    /// Factor by which its values are multiplied.
     pub factor: f64,
 }
 
-/// The columns of a result that are not what their names say, by the declared names.
+/// The columns of a result that differ from their declaration, by declared name.
 pub type ColumnSources = BTreeMap<String, ColumnSource>;
 
-/// Whether a word of the header stands for a name.
+/// Whether a word of the header matches a name.
 pub(crate) type SameName = fn(&str, &str) -> bool;
 
 /// The places of the columns of `R` in a file.
 pub struct Header<R: 'static> {
-    /// Column, place, factor.
+    /// Column, position and factor.
     present: Vec<(&'static Column<R>, usize, f64)>,
     /// The columns that the file leaves out.
     absent: Vec<&'static Column<R>>,
 }
 
 impl<R: Default> Header<R> {
-    /// Finds the `columns` among the `words` of a header; further words are ignored.
+    /// Finds the `columns` among the `words` of a header; other words are ignored.
     ///
     /// # Errors
     /// If a column is missing that must be there, or stands there twice.
@@ -52,7 +52,7 @@ impl<R: Default> Header<R> {
                     let factor = source.map_or(1.0, |source| source.factor);
                     header.present.push((column, place, factor));
                 }
-                // A name that the manifest gives is a promise.
+                // A column that the manifest renames must be present.
                 Ok(None) if column.is_optional && source.is_none() => header.absent.push(column),
                 Ok(None) => return Err(refused(words, format!("`{name}` is missing"))),
                 Err(()) => return Err(refused(words, format!("`{name}` is there twice"))),
@@ -61,7 +61,7 @@ impl<R: Default> Header<R> {
         Ok(header)
     }
 
-    /// The row whose `field`s stand at these places.
+    /// Builds a row from the `field`s at the positions of the columns.
     ///
     /// # Errors
     /// The message about a field that is missing or no number.
@@ -87,7 +87,8 @@ impl<R: Default> Header<R> {
     }
 }
 
-/// The only place of `name` among `words`: itself, or else what stands for it. An error if there are two.
+/// Returns the only position of `name` among `words`: an exact match, or else a word that `is_same`. An error if there
+/// are two.
 fn place(words: &[&str], name: &str, is_same: SameName) -> Result<Option<usize>, ()> {
     for same in [|word: &str, name: &str| word == name, is_same] {
         let mut places = (0..words.len()).filter(|&place| same(words[place], name));
@@ -107,7 +108,7 @@ fn refused(words: &[&str], problem: String) -> SeriesError {
     }
 }
 
-/// The rows of a CSV, at most `limit` of them, and the names of the columns that it leaves out.
+/// Returns the rows of a CSV file, at most `limit`, and the names of the columns that it leaves out.
 pub(super) fn csv_rows<R: Default>(
     input: impl Read,
     columns: &'static [Column<R>],

@@ -1,8 +1,8 @@
-//! What mechanics demands of every series, whichever code made it.
+//! The laws of mechanics that every series must obey, whichever code made it.
 //!
-//! Each law compares two sides in every row from the first after the start to the last before the floor slips. A side
-//! that needs a velocity takes it from five rows at equal distances where there are such, and is known to what the
-//! wall's speed can do to it elsewhere. The bounds follow from the contact law, the time step and the rounding of
+//! Each law compares two sides in every row, from the second row to the last before the floor slips. A side that needs
+//! a velocity takes it from five equally spaced rows where there are such. Elsewhere the velocity is bounded by what
+//! the speed of the wall can cause. The bounds follow from the contact law, the time step and the rounding of
 //! positions (docs/theory.md, section 8.6).
 
 use super::differences::{COORDINATE, FiveRows, Rates};
@@ -22,8 +22,8 @@ use std::f64::consts::PI;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Law {
-    /// The floor bears the wall force and three weights. Cylinders 2 and 3 bear cylinder 1, and are not pushed aside,
-    /// with the normal force of their overlaps and the shear that lets them turn as they do.
+    /// The floor carries the wall force and three weights. Cylinders 2 and 3 carry cylinder 1 and are not pushed
+    /// aside, with the normal forces of their overlaps and the shear that makes them turn as they do.
     ForceBalance,
     /// The right half of the stack mirrors the left one.
     MirrorSymmetry,
@@ -42,7 +42,7 @@ impl Law {
         Self::FloorOverlap,
     ];
 
-    /// The words in messages.
+    /// The name in messages.
     pub const fn as_str(self) -> &'static str {
         match self {
             Self::ForceBalance => "the balance of forces",
@@ -53,20 +53,20 @@ impl Law {
     }
 }
 
-/// How far a series is from a law, in the row that is furthest in units of its bound. Forces in m g.
+/// The deviation of a series from a law, in the row where it is largest in units of its bound. Forces in m g.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Deviation {
     /// Steps since the wall began to move.
     pub step: u64,
-    /// Distance of the two sides, to two digits.
+    /// Difference of the two sides, to two digits.
     pub size: f64,
-    /// Largest distance that the law allows there, to two digits.
+    /// Largest difference that the law allows in that row, to two digits.
     pub bound: f64,
-    /// Both sides, where the law does not hold.
+    /// The side found in the series, if the law does not hold.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub found: Option<f64>,
-    /// The side that the law gives, where it does not hold.
+    /// The side expected by the law, if it does not hold.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub expected: Option<f64>,
 }
@@ -78,20 +78,20 @@ impl Deviation {
     }
 }
 
-/// The laws that could be looked at in a series, each with the largest deviation from it.
+/// The laws that could be checked in a series, each with the largest deviation from it.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(transparent)]
 pub struct Mechanics(pub BTreeMap<Law, Deviation>);
 
 impl Mechanics {
-    /// Holds `series` to every law up to the row at which the floor begins to slide.
+    /// Checks `series` against every law, up to the row at which the floor begins to slide.
     pub fn read(series: &Series, case: &Case) -> Self {
         Self::of_stack(&Stack::of(case, series.samples()), series)
     }
 
-    /// The same of a series whose beginning nobody knows: when the wall touched, where it was, and how the stack came to
-    /// rest. So the wall force is not held to an overlap, and rows alone say how far floor and wall may be out of
-    /// balance.
+    /// Checks a series whose beginning is unknown: when the wall touched, where it was, and how the stack came to
+    /// rest. The wall force is therefore not compared with an overlap, and only the rows themselves tell how far floor
+    /// and wall may be out of balance.
     pub fn read_without_beginning(series: &Series, case: &Case) -> Self {
         let stack = Stack {
             oscillator: None,
@@ -162,13 +162,14 @@ fn two_digits(value: f64) -> f64 {
     format!("{value:.1e}").parse().unwrap_or(value)
 }
 
-/// Phase between two rows up to which five of them show an oscillation: three rows in a period.
+/// Largest phase between two rows at which five rows resolve an oscillation: three rows per period.
 const SHOWN_PHASE: f64 = 2.0 * PI / 3.0;
 
-/// Steps after which the wall has touched even where it begins to move a step late and forces belong to the step before.
+/// Number of steps after which the wall has touched, even where it begins to move a step late and forces belong to the
+/// step before.
 const LATE_TOUCH: u64 = 2;
 
-/// The positions and angles that a series holds.
+/// The positions and angles that a series reports.
 #[derive(Debug, Clone, Copy)]
 struct Reported {
     /// The height of cylinder 1.
@@ -194,33 +195,34 @@ impl Reported {
         }
     }
 
-    /// Whether the sum of the heights is known.
+    /// Whether all heights are reported, and hence their sum is known.
     fn heights(self) -> bool {
         self.top && self.bottom
     }
 }
 
-/// What the laws need to know of a case.
+/// What the laws need to know about a case.
 struct Stack<'a> {
     case: &'a Case,
     law: ContactLaw,
     wall_law: ContactLaw,
-    /// Height of the centre of cylinder 1 in the first row: the wall touches it there.
+    /// Height of the centre of cylinder 1 in the first row, where the wall touches it.
     start: f64,
     /// Largest frequency of the stack with all its contacts.
     frequency: f64,
-    /// k_n over the stiffness of contacts at rest, from 1 on: rounding of a force moves soft contacts so much further.
+    /// k_n over the stiffness of contacts at rest, at least 1: the rounding of a force moves soft contacts by this
+    /// factor more.
     softness: f64,
     schedule: Schedule,
     rounding: Rounding,
     reported: Reported,
-    /// The sum of the heights, where it is an oscillator; as long as every wall presses.
+    /// The oscillator of the sum of the heights, where there is one; valid while every wall presses.
     oscillator: Option<Oscillator>,
     /// Step of the first row in which floor or wall has let go of a body.
     lets_go: u64,
-    /// Time by which the wall has surely touched, as rows tell.
+    /// Time by which the wall has surely touched, according to the rows.
     touched: f64,
-    /// Whether nothing slides or opens before the onset: side walls leave contacts at their limits.
+    /// Whether nothing slides or opens before the onset. Side walls leave contacts at their limits.
     is_smooth: bool,
 }
 
@@ -250,7 +252,7 @@ impl<'a> Stack<'a> {
         }
     }
 
-    /// The laws that can be looked at in `row` of `samples`.
+    /// Returns both sides of every law that can be checked in `row` of `samples`.
     fn sides(&self, samples: &[Sample], row: usize) -> Vec<(Law, Sides)> {
         let sample = &samples[row];
         let five = FiveRows::around(samples, row, self.rounding.coordinate)
@@ -276,31 +278,32 @@ impl<'a> Stack<'a> {
         sides
     }
 
-    /// Whether the wall has its last speed in these rows: while it slows down, differences of rows are no rates.
+    /// Whether the wall has reached its final speed in these rows. While it slows down, differences of rows are not
+    /// rates.
     fn has_its_speed(&self, five: &FiveRows<'_>) -> bool {
         five.rows[0].step >= self.schedule.fast_steps + self.schedule.slowing_steps
     }
 
-    /// Rounding of a position that is advanced in every step, at worst.
+    /// Upper bound of the rounding error of a position that is advanced in every step.
     fn rounded(&self, sample: &Sample) -> f64 {
         (self.schedule.preparation.total() + sample.step) as f64 * COORDINATE
     }
 
-    /// Rounding of a force and of the overlap behind it by printing.
+    /// Error of a force and of the overlap behind it from printed digits.
     fn printed(&self) -> f64 {
         self.rounding.force + 2.0 * self.rounding.coordinate
     }
 
-    /// What a wall exerts at an overlap that grows at a speed, and by how much more than the overlap itself its rounding
-    /// changes that.
+    /// Returns the force of a wall at an overlap that grows at a speed, and the factor by which errors of the overlap
+    /// enter the force.
     fn of_wall(&self, overlap: f64, speed: f64) -> (f64, f64) {
         let own = self.wall_law.at(overlap);
         let force = own.secant * overlap + own.damping_normal * speed;
         (force, self.wall_law.stiffness(overlap).max(1.0))
     }
 
-    /// What is not known of a force with this damping: its velocity may belong to a moment up to a step away, is a difference of
-    /// rows, and rounds.
+    /// Returns the uncertainty of a force with this damping: its velocity may belong to a moment up to one step away,
+    /// it is computed from differences of rows, and it has rounding errors.
     fn damping_error(&self, damping: f64, rates: &[Rates], five: FiveRows<'_>) -> f64 {
         let of_one = |rates: &Rates| {
             self.case.protocol.time_step * rates.acceleration.abs() + rates.velocity_error
@@ -311,7 +314,7 @@ impl<'a> Stack<'a> {
                 + rates.len() as f64 * five.rounding() * (self.frequency + five.interval().recip()))
     }
 
-    /// The largest force by which the floor and the wall are out of balance in `five` rows, and may be between them.
+    /// Returns the largest force by which floor and wall are, or may unseen be, out of balance in `five` rows.
     fn ringing(&self, five: FiveRows<'_>) -> f64 {
         let unbalanced = five.rows.iter().map(|sample| self.unbalanced(sample).abs());
         unbalanced.fold(self.unseen(five), f64::max)
@@ -321,23 +324,24 @@ impl<'a> Stack<'a> {
         sample.borne(&self.case.stack) - self.case.stack.floor_force(sample.wall_force)
     }
 
-    /// The largest force by which floor and wall are out of balance while bodies move as fast as a sudden touch of the wall
-    /// lets them, each with an oscillation of the highest frequency.
+    /// The largest force by which floor and wall are out of balance if bodies move as fast as a sudden touch of the
+    /// wall permits, each in an oscillation of the highest frequency.
     fn of_sudden_touch(&self) -> f64 {
         self.case.stack.own_weight() * self.frequency * self.case.protocol.fast_speed()
     }
 
-    /// The oscillator as of `sample`, if every wall has pressed until then.
+    /// The oscillator at `sample`, if every wall has pressed until then.
     fn oscillator_at(&self, sample: &Sample) -> Option<&Oscillator> {
         self.oscillator
             .as_ref()
             .filter(|_| sample.step < self.lets_go)
     }
 
-    /// The largest force by which floor and wall, or a body, may be out of balance without any row of `five` showing it. With
-    /// linear springs rows that show the frequency √w of floor and wall are taken to show all. Elsewhere rows show those
-    /// motions with three of them in a period; the faster ones have decayed since the wall touched, or had its last speed,
-    /// and with linear springs every motion has.
+    /// Returns the largest force by which floor and wall, or a body, may be out of balance without any row of `five`
+    /// showing it. With linear springs, rows that resolve the frequency √w of floor and wall are taken to show
+    /// everything. Otherwise rows show the motions that have at least three rows per period. Faster motions have
+    /// decayed since the wall touched or reached its final speed; with linear springs, the decay rate used holds for
+    /// every motion.
     fn unseen(&self, five: FiveRows<'_>) -> f64 {
         let first = &five.rows[0];
         let shown = SHOWN_PHASE / five.interval();
@@ -355,9 +359,9 @@ impl<'a> Stack<'a> {
         self.of_sudden_touch() * libm::exp(-rate * age.max(0.0))
     }
 
-    /// The rate at which every motion decays that is faster than `shown` and than a single contact: a motion of frequency ω
-    /// that dashpots η beside springs k damp decays at ω² η/(2k). Contacts become stiffer from rest on, and none bears
-    /// more than the whole floor.
+    /// Lower bound of the decay rate of every motion that is faster than `shown` and than a single contact: a motion
+    /// of frequency ω, damped by dashpots η beside springs k, decays at ω² η/(2k). Contacts become stiffer under load,
+    /// and none carries more than the whole floor.
     fn slowest_decay(&self, sample: &Sample, shown: f64) -> f64 {
         let stack = &self.case.stack;
         let at_rest = stack.epsilon() / f64::from(stack.bodies);
@@ -375,11 +379,11 @@ impl<'a> Stack<'a> {
         rates[0].min(rates[1])
     }
 
-    /// What is out of balance accelerates the cylinders. Where the sum of their heights is an oscillator whose beginning is
-    /// known, that is bounded by what it has been excited with. Elsewhere rows tell: an oscillation of frequency ω that
-    /// bends by b between rows at a distance h has the acceleration ω² b/(4 sin² (ωh/2)), less than (π²/4) b/h² where there
-    /// are three of them in a period, and rows that are further apart show only what is slower. Damping adds to ω²
-    /// what it takes from the frequency.
+    /// Vertical balance of the whole stack. Any imbalance accelerates the cylinders. Where the sum of their heights is
+    /// an oscillator with a known beginning, its excitation bounds the imbalance. Elsewhere the rows bound it: an
+    /// oscillation of frequency ω that bends by b between rows at a distance h has the acceleration ω² b/(4 sin²
+    /// (ωh/2)). This is less than (π²/4) b/h² if there are three rows per period, and rows that are further apart show
+    /// only slower motions. The factor for damping restores what damping takes from ω².
     fn vertical(&self, sample: &Sample, five: Option<FiveRows<'_>>) -> Sides {
         let own_weight = self.case.stack.own_weight();
         let bodies = usize::from(self.case.stack.bodies) + 1;
@@ -411,7 +415,7 @@ impl<'a> Stack<'a> {
         }
     }
 
-    /// The pair of values that mirror each other worst, among those that are reported.
+    /// Mirror symmetry, by the pair of reported values that mirror each other worst.
     fn mirror(&self, sample: &Sample) -> Sides {
         let top = &sample.bodies[self.case.stack.top()];
         let [x, _, z] = top.position;
@@ -496,7 +500,7 @@ impl<'a> Stack<'a> {
         }
     }
 
-    /// Outward part of the forces of the neighbours, with their damping.
+    /// Outward component of the forces of the neighbours, including damping.
     fn bottom_force(&self, sample: &Sample, five: FiveRows<'_>) -> f64 {
         let stack = &self.case.stack;
         let overlap = 2.0 - sample.neighbour_distance(stack);
@@ -509,8 +513,9 @@ impl<'a> Stack<'a> {
         }
     }
 
-    /// The balances of cylinders 1 and 2, whose contact bears the force of its overlap and, so that cylinder 2 turns
-    /// as it does, as much shear as the floor; with a spring that nothing turns, what both say together.
+    /// The balances of cylinders 1 and 2. Their contact carries the normal force of its overlap, and the shear that
+    /// makes cylinder 2 turn as it does under the shear of the floor. With a spring that does not turn, the two
+    /// balances are combined into one.
     fn cylinders(&self, sample: &Sample, five: FiveRows<'_>) -> Vec<Sides> {
         let pair = PairContact::of(self.case, &self.law, five);
         let [x2, y1, y2] = pair.rates;
@@ -526,8 +531,8 @@ impl<'a> Stack<'a> {
         let pressing = sample.wall_force + self.case.stack.epsilon() + y1.acceleration;
         let unbalanced = bottom + sample.first(&self.case.stack).tangential - x2.acceleration;
         if !self.case.convention.history_update.turns() {
-            // What a spring that nothing turns has along the normal is remembered and not reported: it is eliminated from
-            // both balances.
+            // The force along the normal of a spring that does not turn depends on the past and is not reported, so it
+            // is eliminated from the two balances.
             let across = Sides {
                 step: sample.step,
                 found: pair.shear,
@@ -552,7 +557,7 @@ impl<'a> Stack<'a> {
         vec![top, side]
     }
 
-    /// Whether the contacts of neighbours on the floor neither open nor close in these rows.
+    /// Whether no contact between neighbours on the floor opens or closes in these rows.
     fn keeps_its_contacts(&self, five: &FiveRows<'_>) -> bool {
         let is_open = |sample: &Sample| sample.neighbour_distance(&self.case.stack) > 2.0;
         five.rows
@@ -561,7 +566,8 @@ impl<'a> Stack<'a> {
     }
 }
 
-/// Step of the first row in which the floor or the wall has let go of a body after the wall has surely touched.
+/// Returns the step of the first row in which the floor or the wall has let go of a body after the wall has surely
+/// touched.
 fn lets_go(samples: &[Sample], stack: &Groups) -> u64 {
     let touches = |sample: &&Sample| sample.step > LATE_TOUCH;
     let mut later = samples.iter().filter(touches);

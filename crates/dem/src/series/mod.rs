@@ -1,4 +1,4 @@
-//! A time series with named columns, and the yield force read off it.
+//! Time series with named columns, and the yield force derived from them.
 
 mod column;
 mod differences;

@@ -1,4 +1,4 @@
-//! Result of a micro-test: the motion of two cylinders and the forces on them, step by step.
+//! The result of a micro-test: the motion of two cylinders or spheres and the forces on them, step by step.
 
 use super::SeriesError;
 use super::column::{Column, Number, columns};
@@ -10,7 +10,7 @@ use std::io::Read;
 columns! {
     /// One step. Lengths in r, forces in k_n r, torques in k_n r², speeds in r √(k_n/m).
     MotionRow of Motion, 18, and
-    /// What the bodies have in space beyond that.
+    /// Further values of the bodies in space.
     #[serde(default, skip_serializing_if = "is_in_the_plane")]
     space: [RowInSpace; 2]:
     step: u64, "1", "steps since the beginning";
@@ -33,7 +33,7 @@ columns! {
     wall_force: f64, "k_n r", "force of the top wall, positive in compression";
 }
 
-/// What a body has in space beyond one in the plane.
+/// The values of a body in space beyond those in the plane.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct RowInSpace {
@@ -101,7 +101,7 @@ in_space!(
 );
 
 impl MotionRow {
-    /// The columns of a micro-test of cylinders, or of spheres in space.
+    /// The columns of a micro-test, of spheres if it is `in_space`, of cylinders otherwise.
     pub fn columns(in_space: bool) -> &'static [Column<Self>] {
         match in_space {
             true => &IN_SPACE,
@@ -147,7 +147,7 @@ impl MotionRow {
     }
 }
 
-/// One for every step and one for the beginning.
+/// Number of rows: one for every step and one for the start.
 fn planned_rows(steps: u64) -> usize {
     usize::try_from(steps)
         .unwrap_or(usize::MAX)
@@ -162,7 +162,7 @@ pub struct Motion {
 }
 
 impl Motion {
-    /// A motion of `rows`, which must be those of the steps 0 to `steps`.
+    /// A motion with these `rows`, which must be those of the steps 0 to `steps`.
     ///
     /// # Errors
     /// If a row is missing, out of place, or not finite.
@@ -187,25 +187,26 @@ impl Motion {
         Ok(Self { rows })
     }
 
-    /// Reads a motion in CSV and checks it. Columns may be in any order, and further ones are ignored.
+    /// Parses a motion from CSV and checks it. Columns may be in any order, and other columns are ignored.
     pub fn read(input: impl Read, steps: u64) -> Result<Self, SeriesError> {
         Self::read_from(input, &MotionRow::COLUMNS, &ColumnSources::new(), steps)
     }
 
-    /// The same of a CSV with these `columns`, of which some may be others.
+    /// Parses a motion from CSV with these `columns`, some of which `sources` may rename.
     pub fn read_from(
         input: impl Read,
         columns: &'static [Column<MotionRow>],
         sources: &ColumnSources,
         steps: u64,
     ) -> Result<Self, SeriesError> {
-        // One row too many is enough to refuse the motion.
+        // One extra row is enough to refuse the motion.
         let limit = planned_rows(steps).saturating_add(1);
         let (rows, _) = csv_rows(input, columns, sources, limit)?;
         Self::new(rows, steps)
     }
 
-    /// The motion as codes deliver it, in the plane or in space, every number in its shortest exact form.
+    /// Returns the motion in the format of codes, in the plane or in space, with every number in its shortest exact
+    /// form.
     pub fn to_csv(&self) -> Vec<u8> {
         const WRITTEN: &str = "numbers are written to memory";
         let moves_in_space = |row: &MotionRow| !is_in_the_plane(&row.space);
@@ -221,14 +222,14 @@ impl Motion {
         writer.into_inner().expect("memory is flushed")
     }
 
-    /// The most significant digits with which a number is printed; 17 are all.
+    /// Returns the largest number of significant digits with which a number is printed, at most 17.
     pub fn most_digits(&self) -> u32 {
         let columns = MotionRow::COLUMNS.iter();
         let rows = self.rows.iter();
         most_digits(rows.flat_map(|row| columns.clone().map(move |column| (column.value)(row))))
     }
 
-    /// The rows, step by step.
+    /// The rows, in order of the steps.
     pub fn rows(&self) -> &[MotionRow] {
         &self.rows
     }

@@ -1,17 +1,19 @@
 //! The sum of the heights of a stack with linear springs: one oscillator, whatever happens between the bodies.
 //!
-//! Floor and top wall are springs of one stiffness w with dashpots of one coefficient η, forces between bodies cancel in the
-//! sum, and forces along the floor have no vertical part. So the sum Y of all n + 1 heights obeys
+//! Floor and top wall are springs of the same stiffness w with dashpots of the same coefficient η. Forces between
+//! bodies cancel in the sum, and forces along the floor have no vertical component. So the sum Y of all n + 1 heights
+//! obeys
 //!
 //! Ÿ + η Ẏ + w Y = const − (n + 1) g − η Ẇ − w W,
 //!
-//! W being the travel of the wall, and Ÿ is what floor and wall are out of balance by. Each change of the speed of the wall
-//! by Δv adds an oscillation to it whose envelope is Δv w/ω_d e^(−η t/2), ω_d² = w − η²/4 (docs/theory.md, section 8.6).
+//! where W is the travel of the wall and Ÿ is the imbalance of floor and wall. Each change of the wall speed by Δv
+//! adds to Ÿ an oscillation with the envelope Δv w/ω_d e^(−η t/2), ω_d² = w − η²/4 (docs/theory.md, section 8.6).
 
 use super::differences::COORDINATE;
 use crate::model::{Case, ContactConvention, ContactLaw, Power, PreparationSteps, Schedule, Stack};
 
-/// Time steps by which the wall may begin to move later, or forces be taken earlier, than a row says: a step each.
+/// Number of time steps by which an oscillation may be younger than a row says: the wall may begin to move one step
+/// later, and forces may be taken one step earlier.
 const LATE_STEPS: f64 = 2.0;
 
 /// The oscillation of the sum of the heights since the preparation, in k_n r and √(m/k_n).
@@ -22,40 +24,41 @@ pub(super) struct Oscillator {
     /// η.
     damping: f64,
     time_step: f64,
-    /// Envelope that a sudden change of the wall's speed by 1 begins with.
+    /// Initial envelope after a sudden change of the wall speed by 1.
     of_speed: f64,
     /// Speed of the wall at its first touch.
     touch: f64,
     /// Speed that the wall loses while it slows down.
     slowing: f64,
-    /// When it begins to slow down, and for how long it does.
+    /// When the wall begins to slow down, and how long it takes.
     slows: [f64; 2],
     /// Weight of the stack.
     weight: f64,
     /// Durations of the gravity ramp and of the rest after it.
     rises: [f64; 2],
-    /// The stack before the wall touches.
+    /// Motions of the stack before the wall touches.
     standing: Standing,
 }
 
-/// What is known of the motions of a stack that stands on the floor without a wall. The sum of the heights is no oscillator
-/// then, because no spring of the wall belongs to the body on top.
+/// Bounds for the motions of a stack that stands on the floor without a wall. The sum of the heights is not an
+/// oscillator then, because the body on top lacks the spring of the wall.
 #[derive(Debug, Clone, Copy)]
 struct Standing {
-    /// Bound from below of every frequency.
+    /// Lower bound of all frequencies.
     frequency: f64,
-    /// Bound from below of every rate of decay.
+    /// Lower bound of all decay rates.
     decay: f64,
 }
 
 impl Standing {
-    /// Of a stack whose pairs have the stiffness k the lowest frequency obeys
+    /// For a stack whose pairs have the stiffness k, the lowest frequency obeys
     ///
     /// 1/ω⁴ ≤ (0.95/k)² + (1.55/w)² + (0.75/k_t)²,
     ///
-    /// k_t being the lowest tangential stiffness (lowest eigenvalues, computed for two to five bodies on the floor, moments of
-    /// inertia from 0.4 to 1, w from 0.1 to 10, κ from 1e-3 to 1e4 and a κ of the floor from 0.1 to 10 times that). Dashpots η
-    /// beside springs k damp it at no less than ω² η/(2k) of the contact in which η/k is least.
+    /// where k_t is the lowest tangential stiffness (lowest eigenvalues, computed for two to five bodies on the floor,
+    /// moments of inertia from 0.4 to 1, w from 0.1 to 10, κ from 1e-3 to 1e4, and a κ of the floor from 0.1 to 10
+    /// times that). Dashpots η beside springs k damp it at a rate of at least ω² η/(2k), with η/k of the contact where
+    /// it is least.
     fn of(laws: [&ContactLaw; 2]) -> Self {
         let [pair, wall] = laws;
         let tangential = pair.tangential_stiffness.min(wall.tangential_stiffness);
@@ -74,8 +77,8 @@ impl Standing {
     }
 }
 
-/// How far a wall that touches `stack` at this `speed` may still move a body about its rest after this `time`, in r. The
-/// load stiffens contacts and lets motions decay faster.
+/// Returns an upper bound of how far, in r, a wall that touches `stack` at this `speed` may still move a body about
+/// its rest after this `time`. The load of the wall stiffens contacts, so motions decay faster than that.
 pub fn left_of_touch(stack: &Stack, convention: &ContactConvention, speed: f64, time: f64) -> f64 {
     let about_rest = |law: ContactLaw| {
         let overlap = law.overlap(stack.epsilon() / f64::from(stack.bodies));
@@ -95,9 +98,9 @@ pub fn left_of_touch(stack: &Stack, convention: &ContactConvention, speed: f64, 
 }
 
 impl Oscillator {
-    /// The oscillator of `case`, whose pairs and walls have the laws `laws`. `None` where the sum of the heights is none: where forces
-    /// are not linear, where side walls leave the bodies with velocities that nothing bounds, and where the time step
-    /// is too long for an oscillation.
+    /// The oscillator of `case`, with the `laws` of pairs and walls. `None` where the sum of the heights is not an
+    /// oscillator: where forces are not linear, where side walls leave the bodies with velocities of unknown size, and
+    /// where the time step is too long for an oscillation.
     pub(super) fn of(case: &Case, laws: [&ContactLaw; 2], schedule: &Schedule) -> Option<Self> {
         let wall = laws[1];
         let protocol = &case.protocol;
@@ -135,26 +138,25 @@ impl Oscillator {
         LATE_STEPS * self.time_step
     }
 
-    /// Bound from below of the rate at which any motion of the stack decays. The wall adds a spring and makes none slower.
+    /// Lower bound of the decay rate of any motion of the stack. The wall adds a spring, which makes no motion slower.
     pub(super) fn slowest_decay(&self) -> f64 {
         self.standing.decay
     }
 
-    /// The largest force by which floor and wall can be out of balance so long after the wall began to move: the sum of what
-    /// the touch of the wall, its slowing down and the gravity ramp have left by then, and of what rounding keeps
-    /// alive.
+    /// Returns the largest possible imbalance of floor and wall at this `time` after the wall began to move: the sum
+    /// of what remains of the touch of the wall, its slowing down and the gravity ramp, and of what rounding sustains.
     ///
-    /// Rows that fall on a crest reach the envelopes, in every code, and there is no factor for safety beyond what the time
-    /// step can do: a dashpot sees a velocity between half a step before, as in all codes that are known here, and half a
-    /// step later, and the wall moves at the touch or up to a step earlier or later. That changes an amplitude in the first order
-    /// of the step, by less than √w Δt, and the rate of decay.
+    /// In every code, rows that fall on a crest reach the envelopes. There is no safety factor beyond the effect of
+    /// the time step: a dashpot sees a velocity between half a step before (as in all codes known here) and half a
+    /// step later, and the wall starts to move at the touch or up to one step earlier or later. This changes an
+    /// amplitude to first order in the step, by less than √w Δt, and also the decay rate.
     pub(super) fn bound(&self, time: f64) -> f64 {
         let left = self.after_touch(time) + self.after_slowing(time) + self.after_ramp(time);
         (1.0 + self.frequency() * self.time_step) * left + self.rounding(time)
     }
 
-    /// Part of an oscillation that is left at most at an age, which is known to some steps: that of dashpots with the
-    /// velocities of half a step later, (1 + η Δt)^(−t/2Δt), is more than e^(−η t/2).
+    /// Largest fraction of an oscillation that remains at an `age`, which is known to a few steps. Dashpots with the
+    /// velocities of half a step later give (1 + η Δt)^(−t/2Δt), which is more than e^(−η t/2).
     fn decayed(&self, age: f64) -> f64 {
         let least = (age - LATE_STEPS * self.time_step).max(0.0);
         let rate = 0.5 * libm::log1p(self.damping * self.time_step) / self.time_step;
@@ -178,10 +180,10 @@ impl Oscillator {
         self.slowing * self.of_speed * part
     }
 
-    /// The weight of all bodies together acts on all motions of the standing stack, and accelerations that are left of them
-    /// add up to a ≤ (n + 1) g times the part that is left of the slowest. The touch makes of an acceleration a of Y, of its velocity
-    /// a/ω and of the dashpot that begins to work between wall and body an oscillation of the envelope
-    /// (√w/ω_d) a (√2 + 3 √w/ω), or less.
+    /// The weight of all bodies together acts on all motions of the standing stack. The accelerations that remain of
+    /// them add up to a ≤ (n + 1) g times the fraction that remains of the slowest. The touch turns an acceleration a
+    /// of Y, its velocity a/ω, and the dashpot that begins to act between wall and body into an oscillation with the
+    /// envelope (√w/ω_d) a (√2 + 3 √w/ω), or less.
     fn after_ramp(&self, time: f64) -> f64 {
         let [duration, rest] = self.rises;
         let Standing { frequency, decay } = self.standing;
@@ -192,9 +194,10 @@ impl Oscillator {
         of_force * factor * left * self.decayed(time)
     }
 
-    /// Heights and the wall round in every step. While a speed hardly changes they round alike, which is another speed, of up
-    /// to a rounding in a step, and changes suddenly as the speed crosses a digit. Otherwise roundings are random, and the
-    /// oscillator remembers them for a time 2/η, or since the beginning.
+    /// Heights and the wall are rounded in every step. While a speed hardly changes, all its roundings are alike; this
+    /// acts as another speed, off by up to one rounding per step, which changes suddenly when the speed crosses a
+    /// digit. Otherwise rounding errors are random, and the oscillator remembers them for a time 2/η, or since the
+    /// beginning.
     fn rounding(&self, time: f64) -> f64 {
         let run = self.rises[0] + self.rises[1] + time;
         let remembered = (2.0 / self.damping).min(run) / self.time_step;
@@ -203,14 +206,15 @@ impl Oscillator {
     }
 }
 
-/// Part of a sudden change that an oscillation of frequency ω keeps of one that rises as the smooth step χ in a time T, at its
-/// end, ω T being its `phase`: |∫χ' e^(λ(T−t)) dt| with |λ| = ω, integrated by parts. χ' and χ'' vanish at both ends, the next
-/// derivatives are 60, 360 and 720 there, in units of T.
+/// Amplitude of an oscillation of frequency ω after a change that rises as the smooth step χ in a time T, as a
+/// fraction of that after a sudden change; `phase` is ω T. It is |∫χ' e^(λ(T−t)) dt| with |λ| = ω at the end of the
+/// rise, integrated by parts. χ' and χ'' vanish at both ends; the next derivatives there are 60, 360 and 720, in units
+/// of T.
 fn left_by(phase: f64) -> f64 {
     (2.0 * at_an_end(phase)).min(1.0)
 }
 
-/// The same on the way, where χ' and χ'' are at most 15/8 and 10/√3.
+/// The same fraction during the rise, where χ' and χ'' are at most 15/8 and 10/√3.
 fn while_rising(phase: f64) -> f64 {
     let slopes = 1.875 / phase + 10.0 / (3f64.sqrt() * phase * phase);
     (slopes + 2.0 * at_an_end(phase)).min(1.0)
@@ -230,7 +234,7 @@ mod tests {
 
     const SPEED: f64 = 1e-5;
 
-    /// A case whose gravity ramp leaves nothing.
+    /// A case whose gravity ramp leaves no oscillation.
     fn case(restitution: f64, floor_ratio: f64, time_step: f64) -> Case {
         Case {
             stack: Stack::paper(0.3, 1e3),
@@ -270,10 +274,10 @@ mod tests {
         of(case).expect("it oscillates")
     }
 
-    /// How a code steps.
+    /// How a code integrates.
     #[derive(Debug, Clone, Copy)]
     struct Scheme {
-        /// The velocities that dashpots see, from those of half a step before, 0, to those of half a step later, 1.
+        /// The velocities that dashpots see, from those of half a step before (0) to those of half a step later (1).
         later: f64,
         /// The step in which the wall begins to move.
         begins: i64,
@@ -292,7 +296,7 @@ mod tests {
         };
     }
 
-    /// The imbalance in every step from the touch on: the sum of the heights step by step, from rest.
+    /// The imbalance in every step from the touch on, by stepping the sum of the heights from rest.
     fn stepped(case: &Case, Scheme { later, begins }: Scheme) -> Vec<f64> {
         let own = oscillator(case);
         let (protocol, schedule) = (&case.protocol, case.protocol.schedule());
@@ -349,7 +353,7 @@ mod tests {
         }
     }
 
-    /// No imbalance is beyond its bound, and some come as near to it as the factor 1 + √w Δt allows.
+    /// No imbalance exceeds its bound, and some come as close to it as the factor 1 + √w Δt allows.
     #[test]
     fn touch_and_slowing_stay_below_their_bounds() {
         for restitution in [PAPER_RESTITUTION, 0.1, 1.0] {
@@ -370,7 +374,8 @@ mod tests {
         }
     }
 
-    /// Whatever a converging code does within a step, at any time: what it does to the rate of decay adds up.
+    /// The bound must hold at all times for any code that converges, since errors of the decay rate add up over the
+    /// steps.
     #[test]
     fn another_integrator_stays_below_the_bound() {
         for restitution in [PAPER_RESTITUTION, 0.1, 1.0] {
@@ -389,7 +394,7 @@ mod tests {
         }
     }
 
-    /// A wall that has its speed before the first step makes the same motion, smaller by η Δt.
+    /// A wall that has its speed before the first step causes the same motion, smaller by η Δt.
     #[test]
     fn a_wall_that_moves_before_the_first_step_rings_less() {
         let case = case(PAPER_RESTITUTION, 1.0, 0.025);
@@ -426,7 +431,7 @@ mod tests {
         assert_eq!(left(Law::LINEAR, 0.0), 1e-3 / frequency);
         let ratio = left(Law::LINEAR, 10.0) / left(Law::LINEAR, 20.0);
         assert!((ratio / libm::exp(10.0 * decay) - 1.0).abs() < 1e-12);
-        // Under the weight alone, Hertz's contacts are softer by the root of the overlap.
+        // Under the weight alone, Hertz contacts are softer by the square root of the overlap.
         assert!(left(Law::HERTZ, 0.0) > 1.5 * left(Law::LINEAR, 0.0));
         assert!(left(Law::HERTZ, 100.0) > 10.0 * left(Law::LINEAR, 100.0));
     }

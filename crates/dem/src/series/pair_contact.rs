@@ -1,31 +1,32 @@
-//! The contact of cylinders 1 and 2, whose forces no code reports: from positions and the torque of the floor.
+//! The contact of cylinders 1 and 2, whose forces no code reports, computed from positions and the torque of the
+//! floor.
 
 use super::differences::{FiveRows, Rates};
 use super::sample::Sample;
 use crate::model::{Case, ContactLaw, CoulombOperand, Stack};
 
-/// Safety factor of an error that is the distance of two orders (ASME V&V 20, section 2-4.1).
+/// Safety factor for an error that is estimated by the difference of two orders (ASME V&V 20, section 2-4.1).
 const TWO_ORDERS: f64 = 3.0;
 
 /// The contact in the middle of five rows. Forces in k_n r.
 pub(super) struct PairContact {
     /// Rates of x₂, y₁ and y₂.
     pub(super) rates: [Rates; 3],
-    /// Unit vector from cylinder 1 to 2: to the right, and downwards.
+    /// Unit vector from cylinder 1 to cylinder 2: components to the right and downwards.
     pub(super) direction: [f64; 2],
-    /// a, normal force of overlap and damping.
+    /// a, the normal force from overlap and damping.
     pub(super) normal: f64,
     /// η_n at its overlap, which is larger than that of cylinders 2 and 3.
     pub(super) damping: f64,
-    /// b, the tangential force with which cylinder 2 turns as it does.
+    /// b, the tangential force that makes cylinder 2 turn as it does.
     pub(super) shear: f64,
-    /// Error of the accelerations behind the balances of its forces.
+    /// Error of the accelerations in the balances of the contact forces.
     pub(super) acceleration_error: f64,
-    /// |q|, the whole tangential force: b, and what a spring that nothing turns has along the normal.
+    /// |q|, the whole tangential force: b together with the component along the normal of a spring that does not turn.
     whole: f64,
-    /// Damping on top of the limit, as a part of a.
+    /// Damping beyond Coulomb's limit, as a fraction of a.
     on_top: f64,
-    /// Error of |q|/a by differences.
+    /// Error of |q|/a from the differences.
     ratio_error: f64,
 }
 
@@ -56,7 +57,7 @@ impl PairContact {
         let floor_lever = 1.0 + arms.floor.torque * (1.0 - sample.height);
         let inertia = convention.moment_of_inertia;
         let shear = (inertia * turn.acceleration - floor_lever * sample.tangential) / pair_lever;
-        // Where the limit is compared with the spring alone, damping comes on top of it.
+        // Where Coulomb's limit applies to the spring alone, damping is added to it.
         let sliding =
             cosine * apart - sine * sinking - (1.0 + arms.pair.kinematic * overlap) * turn.velocity;
         let on_top = match convention.coulomb_operand {
@@ -65,7 +66,7 @@ impl PairContact {
         };
         let turning = turn.acceleration_error + 6.0 * five.unit() / five.interval().powi(2);
         let shear_error = inertia * turning / pair_lever;
-        // Damping may belong to a moment up to a step away.
+        // The damping may belong to a moment up to one step away.
         let known_to = |rates: Rates| {
             rates.velocity_error
                 + case.protocol.time_step * rates.acceleration.abs()
@@ -80,8 +81,8 @@ impl PairContact {
             let ratio = (shear / normal).abs();
             (shear.abs(), (shear_error + ratio * normal_error) / normal)
         } else {
-            // The top cylinder is borne by what acts along the normals and along the tangents: what is more along the
-            // normal than a is q's.
+            // The forces along normals and tangents carry the top cylinder. The part along the normal in excess of a
+            // belongs to q.
             let pressing = five.rows[2].wall_force + stack.epsilon() + y1.acceleration;
             let along = (pressing / f64::from(stack.bodies) - sine * shear) / cosine;
             let along_error =
@@ -92,7 +93,7 @@ impl PairContact {
             let normal_error = own.damping_normal * known_to(overlaps)
                 + 4.0 * law.stiffness(overlap) * five.unit();
             let errors = (shear * shear_error).abs() + (lift * along_error).abs();
-            // With an error of a, lift and ratio err together.
+            // An error of a changes the lift and the ratio in the same sense.
             let both = (whole / normal + lift / whole).abs();
             (whole, (errors / whole + both * normal_error) / normal)
         };
@@ -109,7 +110,7 @@ impl PairContact {
         }
     }
 
-    /// |q|/a, less its largest error: so much friction there is between the cylinders.
+    /// |q|/a minus its largest error: the friction between the cylinders is at least this.
     pub(super) fn carried_ratio(&self) -> f64 {
         self.whole / self.normal - TWO_ORDERS * self.ratio_error - self.on_top
     }

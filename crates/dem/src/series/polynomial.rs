@@ -1,6 +1,6 @@
 //! Extrapolation of a few values to argument 0 by the polynomial through them.
 
-/// Weights with which the values at `arguments` enter the value of their polynomial at 0 (Lagrange).
+/// Returns the Lagrange weights of the values at `arguments` in the value of their polynomial at 0.
 pub fn weights_at_zero(arguments: &[f64]) -> Vec<f64> {
     let weight = |i: usize| {
         let others = arguments.iter().enumerate().filter(|&(j, _)| j != i);
@@ -11,7 +11,7 @@ pub fn weights_at_zero(arguments: &[f64]) -> Vec<f64> {
     (0..arguments.len()).map(weight).collect()
 }
 
-/// Value at 0 of the polynomial through the given points.
+/// Returns the value at 0 of the polynomial through the given points.
 pub fn value_at_zero(arguments: &[f64], values: &[f64]) -> f64 {
     let weights = weights_at_zero(arguments);
     weights

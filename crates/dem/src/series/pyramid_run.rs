@@ -1,8 +1,8 @@
-//! Result of running a pyramid.
+//! The result of a pyramid run.
 
 use super::SeriesError;
 
-/// Final positions of the cylinders of a pyramid, and the time that the timed steps took.
+/// Final positions of the cylinders of a pyramid, and the run time of the timed steps.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PyramidRun {
     centres: Vec<[f64; 2]>,
@@ -10,9 +10,8 @@ pub struct PyramidRun {
 }
 
 impl PyramidRun {
-    /// A run at the end of which the cylinders are at `centres` (in r, in the order of
-    /// [`Pyramid::centres`](crate::model::Pyramid::centres)), and the last steps of which took `timed_seconds`
-    /// of wall time.
+    /// A run with the final `centres` (in r, in the order of [`Pyramid::centres`](crate::model::Pyramid::centres)),
+    /// whose last steps took `timed_seconds` of wall-clock time.
     ///
     /// # Errors
     /// If there are not `count` cylinders, something is not finite, or the time is negative.
@@ -45,7 +44,7 @@ impl PyramidRun {
         &self.centres
     }
 
-    /// Wall time of the timed steps, without anything before them, in seconds.
+    /// Wall-clock time of the timed steps alone, in seconds.
     pub fn timed_seconds(&self) -> f64 {
         self.timed_seconds
     }

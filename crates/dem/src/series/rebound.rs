@@ -1,10 +1,10 @@
-//! What is read off the motion of an impact.
+//! Properties of an impact, read from its motion.
 
 use super::motion::{BodyRow, Motion, MotionRow};
 use crate::model::ImpactTarget;
 use serde::{Deserialize, Serialize};
 
-/// Rows without a contact that end a motion in which the bodies have parted.
+/// Rows without contact at the end of a motion that show that the bodies have separated.
 const ROWS_APART: usize = 4;
 
 /// The numbers of an impact. Velocities are those of free flight, before and after.
@@ -13,22 +13,23 @@ const ROWS_APART: usize = 4;
 pub struct Rebound {
     /// Largest overlap, in r: the vertex of the polynomial through five rows.
     pub greatest_overlap: f64,
-    /// Time for which the bodies overlap, in √(m/k_n): between the zeros of the straight lines through the last row before
-    /// and the first row after each change, where they fly freely.
+    /// Time for which the bodies overlap, in √(m/k_n). Each end is the zero of the straight line through the rows just
+    /// before and just after it, between which the bodies are taken to fly freely.
     pub duration: f64,
     /// Speed of separation over speed of approach.
     pub restitution: f64,
-    /// Change of the tangential velocity: of the cylinder along the floor, against its motion, or of the relative angular
-    /// momentum of a pair over 2, counter-clockwise.
+    /// Change of the tangential velocity: of the cylinder along the floor, against its motion, or of half the relative
+    /// angular momentum of a pair, counter-clockwise.
     pub tangential_velocity: f64,
-    /// Loss of spin, counter-clockwise; the mean of a pair.
+    /// Loss of spin, counter-clockwise; the mean over a pair.
     pub spin: f64,
-    /// The most significant digits with which a number is printed; 17 are all.
+    /// The largest number of significant digits with which a number is printed, at most 17.
     pub digits: u32,
 }
 
 impl Rebound {
-    /// Reads `motion`, which has this time step. `None` if the bodies do not touch, or do not part for the rest of it.
+    /// Reads `motion`, which has this time step. `None` if the bodies touch in the first row or never, or have not
+    /// separated for good some rows before the end.
     pub fn read(motion: &Motion, target: ImpactTarget, time_step: f64) -> Option<Self> {
         let rows = motion.rows();
         let overlaps: Vec<f64> = rows.iter().map(|row| overlap(target, row)).collect();
@@ -65,11 +66,11 @@ fn difference(one: [f64; 2], two: [f64; 2]) -> [f64; 2] {
     [one[0] - two[0], one[1] - two[1]]
 }
 
-/// Bodies that do not touch.
+/// Two bodies that do not touch.
 struct Flight {
-    /// Speed at which they part, where they just touch.
+    /// Speed at which they separate, at the distance at which they just touch.
     separation: f64,
-    /// Tangential velocity there.
+    /// Tangential velocity at that distance.
     tangential: f64,
     spin: f64,
 }
@@ -101,7 +102,8 @@ impl Flight {
     }
 }
 
-/// The largest value of the polynomial through the highest of `values` and two on either side. `None` at an end.
+/// Returns the maximum of the polynomial through the highest of `values` and two on each side. `None` if the highest
+/// is too close to an end.
 fn greatest(values: &[f64]) -> Option<f64> {
     let highest = (0..values.len()).max_by(|&i, &j| values[i].total_cmp(&values[j]))?;
     let first = highest.checked_sub(2)?;

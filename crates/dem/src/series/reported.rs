@@ -20,14 +20,14 @@ const CHECKS: [(&str, &[&str]); 7] = [
     ("whether the floor slides from onset to peak", &FLOOR),
 ];
 
-/// What the contact of cylinders 1 and 2 is computed from.
+/// The columns from which the contact of cylinders 1 and 2 is computed.
 const PAIR: [&str; 5] = ["x1", "y1", "x2", "y2", "theta2"];
-/// What the sliding of the floor is computed from.
+/// The columns from which the sliding of the floor is computed.
 const FLOOR: [&str; 5] = ["x2", "y2", "theta2", "x3", "y3"];
 
-/// The checks, in words, that a series without the columns `absent` does not undergo, or not in full.
+/// Returns the checks, in words, that a series without the columns `absent` skips, wholly or in part.
 pub fn not_tested<'a>(absent: &'a [impl AsRef<str>]) -> impl Iterator<Item = &'static str> + 'a {
-    // Cylinders turn about z alone.
+    // The rotation of cylinders is about z alone.
     let plain = |name: &str| name.replace("thetaz", "theta");
     let absent: Vec<String> = absent.iter().map(|name| plain(name.as_ref())).collect();
     let is_absent = move |column: &&str| absent.iter().any(|name| name == *column);
@@ -35,20 +35,20 @@ pub fn not_tested<'a>(absent: &'a [impl AsRef<str>]) -> impl Iterator<Item = &'s
     checks.filter_map(move |(check, needed)| needed.iter().any(&is_absent).then_some(*check))
 }
 
-/// Whether `needed` numbers of the first row are all reported.
+/// Whether all `needed` numbers are reported, judged by the first row.
 pub(super) fn reports(samples: &[Sample], needed: impl Fn(&Sample) -> Vec<f64>) -> bool {
     let first = samples.first();
     first.is_some_and(|first| !needed(first).iter().any(|number| number.is_nan()))
 }
 
-/// What the forces between the top body and the first on the floor need.
+/// The numbers needed for the forces between the top body and the first body on the floor.
 pub(super) fn of_pair(sample: &Sample, stack: &Stack) -> Vec<f64> {
     let first = sample.first(stack);
     let [x, y, z] = sample.top(stack);
     vec![x, y, z, first.outwards, first.height, first.turn]
 }
 
-/// What the sliding of the floor needs.
+/// The numbers needed for the sliding of the floor.
 pub(super) fn of_floor(sample: &Sample, stack: &Stack) -> Vec<f64> {
     let contacts = sample.floor_contacts(stack);
     contacts

@@ -1,10 +1,10 @@
-//! One row of a time series, and what it says of each body on the floor.
+//! A row of a time series, and what it says about each body on the floor.
 
 use super::column::{Column, Number};
 use crate::model::{MOST_BODIES, PAPER_BODIES, Stack};
 use serde::{Deserialize, Serialize};
 
-/// Where a body is. Lengths in r, angles in radians.
+/// Position and rotation of a body. Lengths in r, angles in radians.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct Placement {
     /// Centre, [x, y, z] with y upwards; cylinders have z = 0.
@@ -13,8 +13,8 @@ pub struct Placement {
     pub rotation: [f64; 3],
 }
 
-/// One row of a time series. Forces in k_n r, time in √(m/k_n). What a code does not report is not a number
-/// ([`Series::absent`] names it), and what its stack does not have is 0.
+/// One row of a time series. Forces in k_n r, time in √(m/k_n). Values that a code does not report are NaN
+/// ([`Series::absent`] names them), and those of bodies that its stack does not have are 0.
 ///
 /// [`Series::absent`]: super::Series::absent
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
@@ -32,8 +32,8 @@ pub struct Sample {
     pub floor: [[f64; 3]; MOST_BODIES],
 }
 
-/// A body on the floor in the plane through it and the axis of the stack. All of them agree where the stack is
-/// symmetric.
+/// A body on the floor, in the plane through its place and the axis of the stack. In a symmetric stack all of them are
+/// equal.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FloorContact {
     /// Distance of its centre from the axis.
@@ -53,7 +53,7 @@ pub struct FloorContact {
 }
 
 impl FloorContact {
-    /// Size of the tangential force.
+    /// Magnitude of the tangential force.
     pub fn friction(&self) -> f64 {
         libm::hypot(self.tangential, self.across)
     }
@@ -86,7 +86,7 @@ impl Sample {
         contacts.next().expect("a stack has bodies on the floor")
     }
 
-    /// Normal forces of the floor, together.
+    /// Sum of the normal forces of the floor.
     pub fn borne(&self, stack: &Stack) -> f64 {
         self.floor_contacts(stack)
             .map(|contact| contact.normal)
@@ -98,7 +98,7 @@ impl Sample {
         self.bodies[stack.top()].position
     }
 
-    /// Distance of that centre from the axis, towards the first body of the ring.
+    /// Distance of the centre of the body on top from the axis, towards the first body of the ring.
     pub(super) fn top_outwards(&self, stack: &Stack) -> f64 {
         let place = stack.places().next();
         let [x, z] = place.map_or([1.0, 0.0], |place| place.outwards);
@@ -119,8 +119,8 @@ impl Sample {
         (dx * dx + dy * dy + dz * dz).sqrt()
     }
 
-    /// Overlap of cylinders 2 and 3, or of the neighbours in a ring that overlap most, and 0 where none touch: linear
-    /// springs bear as much force at rest. Not a number where positions are not reported.
+    /// Overlap of cylinders 2 and 3, or the largest overlap of neighbours in a ring; 0 where none touch. With linear
+    /// springs this is also the force at rest. NaN where positions are not reported.
     pub fn bottom_overlap(&self, stack: &Stack) -> f64 {
         let places: Vec<usize> = stack.places().map(|place| place.body).collect();
         let next = places.iter().cycle().skip(1);
@@ -156,7 +156,7 @@ macro_rules! column {
     };
 }
 
-/// The columns of all series.
+/// The columns that all series share, followed by `further` ones.
 macro_rules! every_series {
     ($($further:expr),* $(,)?) => {
         [
@@ -297,7 +297,7 @@ impl Sample {
     /// Every number of a row, as the columns of the largest stack.
     pub(super) const EVERY: &'static [Column<Self>] = &OF_SPHERES;
 
-    /// The columns of the series of a stack with so many bodies on the floor, in order.
+    /// The columns of the series of a stack with this many bodies on the floor, in order.
     pub fn columns(bodies: u8) -> &'static [Column<Self>] {
         match bodies {
             PAPER_BODIES => &OF_CYLINDERS,

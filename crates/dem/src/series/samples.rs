@@ -1,4 +1,4 @@
-//! The time series that every code delivers, checked.
+//! The time series that every code delivers, and its checks.
 
 use super::column::Column;
 use super::drop::DropWatch;
@@ -8,7 +8,7 @@ use crate::model::{Case, Schedule, readable_lines};
 use std::io::Read;
 use thiserror::Error;
 
-/// Why a series is not the one that was asked for. Rows are counted from 1, which is the one after the header.
+/// Why a series is not the one that was requested. Rows are counted from 1, the row after the header.
 #[derive(Debug, Error)]
 #[allow(missing_docs)] // The messages say what each is.
 pub enum SeriesError {
@@ -43,13 +43,13 @@ pub enum SeriesError {
 }
 
 impl SeriesError {
-    /// There is no series at all: `message` names what is missing, and what was found instead.
+    /// There is no series; `message` names what is missing, and what was found instead.
     pub fn absent(message: impl Into<String>) -> Self {
         let message = readable_lines(&message.into());
         Self::Absent { message }
     }
 
-    /// `row` cannot be read.
+    /// `row` cannot be used, for the reason that `message` gives.
     pub fn garbled(row: usize, message: impl ToString) -> Self {
         let message = readable_lines(&message.to_string());
         Self::Garbled { row, message }
@@ -60,12 +60,12 @@ fn planned_rows(schedule: &Schedule) -> usize {
     usize::try_from(schedule.rows()).unwrap_or(usize::MAX)
 }
 
-/// Rows beyond the end are not all counted.
+/// Marks a count as a lower bound, since not all rows beyond the expected end are counted.
 fn or_more(found: usize, expected: usize) -> &'static str {
     if found > expected { " or more" } else { "" }
 }
 
-/// Whether the last row, and none before, is the one that ends the run.
+/// Whether the drop of the wall force ends the run at the last row, and not before.
 fn ends_with_the_drop(samples: &[Sample], schedule: &Schedule) -> bool {
     let mut watch = DropWatch::new(schedule.stop_at_drop);
     let mut fine = samples
@@ -75,7 +75,7 @@ fn ends_with_the_drop(samples: &[Sample], schedule: &Schedule) -> bool {
     ends.is_some() && fine.next().is_none()
 }
 
-/// Most rows of a series that nobody has planned: as many as a plan may have.
+/// Largest number of rows in a series without a plan; a plan may have as many.
 const MOST_UNPLANNED_ROWS: usize = 1_000_000;
 
 /// A checked time series of one compression.
@@ -87,7 +87,7 @@ pub struct Series {
 }
 
 impl PartialEq for Series {
-    /// Equal in all that is reported.
+    /// Compares the reported values only.
     fn eq(&self, other: &Self) -> bool {
         let numbers = |series: &Self| -> Vec<f64> {
             let rows = series.samples.iter();
@@ -107,7 +107,7 @@ impl Series {
         Self::without(Vec::new(), samples, case)
     }
 
-    /// The same without the columns that are named `absent`, which are not looked at.
+    /// A series without the columns named `absent`, which are not checked.
     pub fn without(
         absent: Vec<&'static str>,
         samples: Vec<Sample>,
@@ -152,27 +152,27 @@ impl Series {
         columns.filter(|column| !self.absent.contains(&column.name))
     }
 
-    /// Reads the shared CSV format and checks it against the plan. Columns may be in any order, and further ones are
+    /// Parses the shared CSV format and checks it against the plan. Columns may be in any order, and other columns are
     /// ignored.
     pub fn read(input: impl Read, case: &Case) -> Result<Self, SeriesError> {
         Self::read_from(input, &ColumnSources::new(), case)
     }
 
-    /// The same of a CSV in which some columns are others.
+    /// Parses a CSV some of whose columns `sources` rename.
     pub fn read_from(
         input: impl Read,
         sources: &ColumnSources,
         case: &Case,
     ) -> Result<Self, SeriesError> {
-        // One row too many is enough to refuse the series.
+        // One extra row is enough to refuse the series.
         let limit = planned_rows(&case.protocol.schedule()).saturating_add(1);
         let columns = Sample::columns(case.stack.bodies);
         let (samples, absent) = csv_rows(input, columns, sources, limit)?;
         Self::without(absent, samples, case)
     }
 
-    /// Reads a series of so many bodies on the floor that nobody has planned, with its time step: finite numbers, steps that rise, and times that are
-    /// multiples of one time step.
+    /// Parses a series without a plan, for this many bodies on the floor, and returns it with its time step. Numbers
+    /// must be finite, steps must rise, and times must be multiples of one time step.
     pub fn read_unplanned(input: impl Read, bodies: u8) -> Result<(Self, f64), SeriesError> {
         let columns = Sample::columns(bodies);
         let (samples, absent) =
@@ -202,7 +202,7 @@ impl Series {
         Ok((series, time_step))
     }
 
-    /// The series in the shared CSV format, every number in its shortest exact form.
+    /// Returns the series in the shared CSV format, with every number in its shortest exact form.
     pub fn to_csv(&self) -> Vec<u8> {
         const WRITTEN: &str = "numbers are written to memory";
         let mut writer = csv::Writer::from_writer(Vec::new());
@@ -241,7 +241,7 @@ fn check_finite(
     })
 }
 
-/// Codes may sum the time step instead of multiplying it, which rounds differently.
+/// Checks the time of a row. Codes may sum the time step instead of multiplying it, which rounds differently.
 fn check_time(row: usize, sample: &Sample, time_step: f64) -> Result<(), SeriesError> {
     let expected = sample.step as f64 * time_step;
     if (sample.time - expected).abs() <= 1e-9 * expected {

@@ -1,25 +1,25 @@
-//! What is kept of a run where its series is not.
+//! What is kept of a run whose series is not kept.
 
 use super::{Mechanics, Series, YieldEstimates};
 use crate::model::Case;
 
-/// The yield force of a run by both estimators, and what a verdict on it needs besides.
+/// The yield force of a run by both estimators, with further data for a verdict.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Summary {
     /// The yield force by both estimators.
     pub estimates: YieldEstimates,
     /// Wall force at the end, in m g.
     pub last_force: f64,
-    /// c, without damping, between the bottom cylinders when the compression begins, in m g.
+    /// c between the bottom cylinders at the start of the compression, without damping, in m g.
     pub contact_force: Option<f64>,
-    /// x₂, y₁ and y₂ when the compression begins, in r.
+    /// x₂, y₁ and y₂ at the start of the compression, in r.
     pub start: Option<[f64; 3]>,
     /// The largest deviation from each law of mechanics.
     pub mechanics: Mechanics,
 }
 
 impl Summary {
-    /// Reads the summary off the `series` of `case`.
+    /// Reads the summary from the `series` of `case`.
     pub fn read(series: &Series, case: &Case) -> Self {
         let stack = &case.stack;
         let law = case.convention.law(stack.stiffness_ratio);

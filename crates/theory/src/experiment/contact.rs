@@ -13,18 +13,17 @@ use std::fmt;
 /// (P/(2 π E*)) (2 ln(4 r/a) − 1) (there Eq. 5.57). The logarithm makes k_n depend on the load, but weakly.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ContactEstimate {
-    /// The paper's ε = L ρ g/E with L = r, that is k_n = π E l. An order of magnitude, and on the
-    /// stiff side of it.
+    /// The paper's ε = L ρ g/E with L = r, that is k_n = π E l: an order of magnitude, on the stiff side.
     PaperScaling,
-    /// k_n = (π/4) E* l, the straight line through Hertz's law (V. L. Popov, *Contact Mechanics and Friction*,
-    /// section 5.6): what DEM codes use in two dimensions. Independent of radius and load.
+    /// k_n = (π/4) E* l, the straight line through Hertz's law (V. L. Popov, *Contact Mechanics and Friction*, section
+    /// 5.6). DEM codes use it in two dimensions. It depends neither on the radius nor on the load.
     LineContact,
     /// The secant of Hertz's law, logarithm included, at the overlap at which the stack yields.
     Hertz,
 }
 
 impl ContactEstimate {
-    /// All of them, from stiff to soft.
+    /// All estimates, from stiff to soft.
     pub const ALL: [Self; 3] = [Self::PaperScaling, Self::LineContact, Self::Hertz];
 
     /// The name on the command line and in files.
@@ -36,7 +35,7 @@ impl ContactEstimate {
         }
     }
 
-    /// Its formula, in ASCII.
+    /// The formula, in ASCII.
     pub fn formula(self) -> &'static str {
         match self {
             Self::PaperScaling => "epsilon = L rho g/E, L = r (k_n = pi E l)",
@@ -45,7 +44,7 @@ impl ContactEstimate {
         }
     }
 
-    /// k_n in N/m at the overlap G of the contact in r.
+    /// Returns k_n in N/m when the contact has the overlap G, in r.
     pub fn normal_stiffness(self, cylinder: &Cylinder, overlap: f64) -> f64 {
         let effective = cylinder.effective_modulus() * cylinder.length;
         match self {
@@ -66,8 +65,8 @@ impl fmt::Display for ContactEstimate {
 const LARGEST_OVERLAP: f64 = 1.0;
 const ITERATIONS: usize = 200;
 
-/// p = P/(E* r) of two equal cylinders whose centres have approached by G in r: G = (p/π)(ln(8π/p) − 1),
-/// which is Johnson's Eq. 5.57, twice, with a² = 2 p r²/π.
+/// Returns p = P/(E* r) for two equal cylinders whose centres have approached by G in r. It solves G = (p/π)(ln(8π/p)
+/// − 1), which is twice Johnson's Eq. 5.57 with a² = 2 p r²/π.
 fn hertz_force(overlap: f64) -> f64 {
     let overlap = overlap.min(LARGEST_OVERLAP);
     // p ← π G/(ln(8π/p) − 1) contracts by 1/(ln(8π/p) − 1) < 0.7 for all such G.

@@ -1,4 +1,4 @@
-//! Forecasts of an experiment, one for every estimate of the contact.
+//! Forecasts of an experiment, one for each estimate of the contact stiffness.
 
 use super::{ContactEstimate, Experiment, GRAVITY};
 use crate::model::{CRITICAL_FRICTION, ContactConvention, HistoryUpdate, InvalidValue, Stack};
@@ -8,16 +8,17 @@ use crate::theory::{
 use serde::Serialize;
 use std::fmt;
 
-/// Stiffnesses k_n r/(m g) up to which the closed form was held against its asymptotes; steel cylinders of 1 mm have 3e9.
+/// Range of the stiffness k_n r/(m g) over which the closed form was compared with its asymptotes; steel cylinders of
+/// 1 mm have 3e9.
 const STIFFNESS_RANGE: (f64, f64) = (1.0, 1e12);
-/// Rounds at most: the secant of Hertz's law and the overlap at yield determine each other.
+/// Maximum number of iterations: the secant of Hertz's law and the overlap at yield determine each other.
 const ROUNDS: usize = 60;
 
-/// The side of the rigid critical friction μ_c on which the floor is.
+/// Where the floor friction lies relative to the rigid critical friction μ_c.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum FrictionRegime {
-    /// μ < μ_c: the yield force is some weights, however stiff the cylinders.
+    /// μ < μ_c: the yield force is a few weights, however stiff the cylinders are.
     Below,
     /// μ = μ_c within its uncertainty: the yield force grows as 1/√ε.
     At,
@@ -46,7 +47,7 @@ impl fmt::Display for FrictionRegime {
     }
 }
 
-/// A force in both units.
+/// A force in two units.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Force {
     /// In m g.
@@ -68,29 +69,29 @@ pub struct Forecasted {
     pub stiffness: f64,
     /// The first event.
     pub event: Event,
-    /// Why that event is no yield, if it is none.
+    /// Why the first event is not a yield, if it is not.
     pub reason: Option<String>,
     /// Overlap of the contacts between the cylinders at that event, in r.
     pub overlap: f64,
-    /// The exact quasi-static yield force, which is the peak; absent when something else than floor slip comes first.
+    /// The exact quasi-static yield force (the peak); absent when an event other than floor slip comes first.
     pub yield_force: Option<Force>,
-    /// The force at which the floor begins to slip, less than the peak where the bottom cylinders touch then.
+    /// The force at which the floor begins to slip; lower than the peak if the bottom cylinders touch at that moment.
     pub slip_onset: Option<Force>,
-    /// The paper's perturbation result, absent where it gives none.
+    /// The paper's perturbation result; absent where the theory gives none.
     pub perturbation: Option<Force>,
     /// The paper's f = m g/ε, meant for μ > μ_c.
     pub paper_formula: Force,
-    /// The largest force that the stack carries, whatever ends it; 0 if it falls under its own weight, absent
-    /// where the force grows without a peak.
+    /// The largest force that the stack carries, whatever ends the loading; 0 if the stack falls under its own weight,
+    /// absent if the force grows without a peak.
     pub largest_force: Option<Force>,
 }
 
-/// Smallest and largest of the forces that a stack may carry.
+/// The smallest and largest force that a stack may carry, over several forecasts.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ForceRange {
     /// In N.
     pub lowest: Option<f64>,
-    /// In N; absent if for some of them the force has no peak.
+    /// In N; absent if some forecast has no peak.
     pub highest: Option<f64>,
 }
 
@@ -103,20 +104,20 @@ pub struct Forecast {
     pub mass: f64,
     /// m g in N.
     pub weight: f64,
-    /// The side of μ_c.
+    /// The friction regime, by μ and its uncertainty.
     pub regime: FrictionRegime,
     /// The chosen estimate of the contact.
     pub contact: ContactEstimate,
-    /// Its yield force; absent when something else than floor slip comes first.
+    /// The yield force by that estimate; absent when an event other than floor slip comes first.
     pub yield_force: Option<Force>,
-    /// The largest force over all estimates of the contact and all μ within their uncertainty.
+    /// Range of the largest force over all estimates of the contact and all μ within their uncertainty.
     pub range: ForceRange,
     /// All estimates, side by side.
     pub estimates: Vec<Forecasted>,
 }
 
 impl Forecast {
-    /// The forecast for `experiment`, in which `contact` is the chosen estimate.
+    /// Computes the forecast for `experiment`, in which `contact` is the chosen estimate.
     ///
     /// ```
     /// use tristack_theory::experiment::{ContactEstimate, Cylinder, Experiment, Forecast};
@@ -224,8 +225,8 @@ fn check_stiffness(contact: ContactEstimate, stiffness: f64) -> Result<(), Inval
     Err(InvalidValue::new(&key, stiffness, accepted))
 }
 
-/// G when the first event comes: from the peak, or the force where the floor slips, G = ε (F + 1)/2 (docs/theory.md,
-/// Eq. 14), from T = μ_d where the cylinders do, and under own weight, ε/2, where nothing else is known.
+/// Returns G at the first event. Where the cylinders slip, G follows from T = μ_d. With a peak or a floor-slip force
+/// F, G = ε (F + 1)/2 (docs/theory.md, Eq. 14). Where nothing else is known, G is that under own weight, ε/2.
 fn overlap_at_the_event(limit: &Limit, stack: &Stack) -> f64 {
     let beyond = stack.cylinder_friction - CRITICAL_FRICTION;
     match (limit.event, limit.peak_force.or(limit.floor_slip_force)) {
@@ -235,8 +236,8 @@ fn overlap_at_the_event(limit: &Limit, stack: &Stack) -> f64 {
     }
 }
 
-/// The largest F that the stack carries. Beyond the stiffnesses of the regime map the closed form gives it alone: by
-/// the yield, and by the saturated force of slipping cylinders.
+/// Returns the largest F that the stack carries. Beyond the stiffnesses of the regime map only the closed form gives
+/// it: from the yield force, or from the saturated force of slipping cylinders.
 fn largest_force(limit: &Limit, stack: &Stack) -> Option<f64> {
     if stack.validate().is_ok()
         && let Some(outcome) = LoadingOutcome::of(stack, HistoryUpdate::Rotated)
@@ -294,7 +295,7 @@ mod tests {
         cylinder.weighing(0.0219)
     }
 
-    /// E of 1 GPa gives the printed 1e5 N; 10 GPa do not.
+    /// E = 1 GPa gives the printed 1e5 N; 10 GPa does not.
     #[test]
     fn wood_of_the_paper() {
         let wood = paper_wood();

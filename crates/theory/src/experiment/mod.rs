@@ -1,11 +1,10 @@
 //! Real cylinders: Young's modulus and size in, ε and the yield force in newton out.
 //!
-//! The paper's own estimates ("Concluding remarks") follow from ε = L ρ g/E, m = ρ L³ and f = m g/ε, which
-//! together are f = E L². For an elastomer (1 MPa, 1000 kg/m³, L = 1 cm) that gives m = 1 g, ε = 1e-4 and
-//! f = 100 N, as printed. For wood of the same mass the paper prints 1e5 N without saying which E: it follows
-//! from E of some 1 GPa, which is wood across its grain, the direction in which the cylinders are pressed;
-//! 10 GPa, along the grain, would give 1e6 N. f = m g/ε leaves out the factor 2 G(μ) of the exact limit,
-//! which is 0.2 at μ = 0.3 and 0.8 at μ = 0.5.
+//! The paper's own estimates ("Concluding remarks") follow from ε = L ρ g/E, m = ρ L³ and f = m g/ε, hence f = E L².
+//! An elastomer (1 MPa, 1000 kg/m³, L = 1 cm) then has m = 1 g, ε = 1e-4 and f = 100 N, as printed. For wood of the
+//! same mass the paper prints 1e5 N without giving E. This follows from E of about 1 GPa, which is wood across its
+//! grain, the direction in which the cylinders are pressed; 10 GPa, along the grain, would give 1e6 N. f = m g/ε
+//! leaves out the factor 2 G(μ) of the exact limit, which is 0.2 at μ = 0.3 and 0.8 at μ = 0.5.
 
 mod contact;
 mod forecast;
@@ -23,9 +22,9 @@ use std::f64::consts::PI;
 /// Standard gravity in m/s².
 pub const GRAVITY: f64 = 9.806_65;
 
-/// L of the paper's estimates in m.
+/// L in the paper's estimates, in m.
 const PAPER_LENGTH: f64 = 0.01;
-/// Mass of the paper's estimates in kg.
+/// Mass in the paper's estimates, in kg.
 const PAPER_MASS: f64 = 1e-3;
 
 /// A solid cylinder, in SI units.
@@ -58,7 +57,7 @@ impl Cylinder {
         }
     }
 
-    /// E* = E/(2(1 − ν²)) in Pa, of two such cylinders.
+    /// Returns E* = E/(2(1 − ν²)) in Pa, for two such cylinders in contact.
     fn effective_modulus(&self) -> f64 {
         self.youngs_modulus / (2.0 * (1.0 - self.poisson_ratio * self.poisson_ratio))
     }
@@ -68,7 +67,7 @@ impl Cylinder {
         Self::paper(1e6, 0.5, PAPER_MASS / PAPER_LENGTH.powi(3))
     }
 
-    /// r = L, and l = L/π makes the mass ρ L³.
+    /// A cylinder with r = L and l = L/π, so that its mass is ρ L³ = 1 g.
     fn paper(youngs_modulus: f64, poisson_ratio: f64, density: f64) -> Self {
         let scale = libm::cbrt(PAPER_MASS / density);
         Self {
@@ -129,7 +128,7 @@ impl Experiment {
         }
     }
 
-    /// The stack in dimensionless groups, with its stiffness k_n r/(m g) for a given k_n in N/m.
+    /// The dimensionless stack, with the stiffness k_n r/(m g) for k_n in N/m.
     fn stack(&self, mu: f64, normal_stiffness: f64) -> Stack {
         let weight = self.cylinder.mass() * GRAVITY;
         Stack {

@@ -51,8 +51,8 @@ pub fn mass(text: &str) -> Result<f64, String> {
     quantity(text, units, accepted, |read: Mass| read.get::<kilogram>())
 }
 
-/// The quantity in `text` in one of `units`, as [`spelled_out`] writes them: case matters, and `uom` knows further ones
-/// that are easily taken for these, such as M, the nautical mile.
+/// Parses `text` as a quantity in one of `units`, written as by [`spelled_out`]. Case matters, and units that only
+/// `uom` knows are refused, because some are easily mistaken for these (M is the nautical mile).
 fn quantity<Q: FromStr>(
     text: &str,
     units: &[&str],
@@ -66,10 +66,10 @@ fn quantity<Q: FromStr>(
     value.ok_or_else(|| format!("accepted is a number above 0 and its unit: {accepted}"))
 }
 
-/// `text` as `uom` parses it: one blank between number and unit, powers raised, µ for micro.
+/// Rewrites `text` as `uom` parses it: one blank between number and unit, powers raised, µ for micro.
 fn spelled_out(text: &str) -> String {
     let text = text.trim();
-    // The longest part that is a number: "1e" is none, so that the e of a unit stays with the unit.
+    // The longest prefix that is a number: "1e" is not one, so that the e of a unit stays with the unit.
     let is_number = |&end: &usize| {
         text.get(..end)
             .is_some_and(|part| part.parse::<f64>().is_ok())

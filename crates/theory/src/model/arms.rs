@@ -89,7 +89,7 @@ pub struct Arms<N = f64> {
 }
 
 impl<N> Arms<N> {
-    /// The same coefficients as other numbers.
+    /// Converts every coefficient with `number`.
     pub fn map<M>(self, mut number: impl FnMut(N) -> M) -> Arms<M> {
         let mut map = |arms: ContactArms<N>| ContactArms {
             torque: number(arms.torque),
@@ -106,7 +106,7 @@ impl Arms {
     /// The paper's: every arm is the radius of the undeformed cylinder.
     pub const PAPER: Self = Self::reciprocal(0.0, 0.0);
 
-    /// One coefficient for pairs and one for walls, each for torque and surface velocity alike.
+    /// One coefficient for pairs and one for walls; torque and surface velocity share it.
     pub const fn reciprocal(pair: f64, floor: f64) -> Self {
         Self {
             pair: ContactArms::reciprocal(pair),
@@ -114,7 +114,7 @@ impl Arms {
         }
     }
 
-    /// Every coefficient in its range, or the first one that is not.
+    /// Checks every coefficient; the error names the first that is out of range.
     pub(super) fn validate(&self) -> Result<(), InvalidValue> {
         self.pair.validate("convention.pair")?;
         self.floor.validate("convention.floor")

@@ -5,7 +5,7 @@ use super::stack::PAPER_BODIES;
 use super::validity::{InvalidValue, within};
 use serde::{Deserialize, Serialize};
 
-/// Most bodies of a stack.
+/// Largest number of bodies in a stack.
 pub const MOST_BODIES: usize = 6;
 
 /// How the spheres of a stack lie and are numbered. The answer of a code depends on the displacement alone: the others
@@ -26,7 +26,7 @@ pub struct Arrangement {
 }
 
 impl Arrangement {
-    /// Leaves the usual arrangement out of files and hashes.
+    /// Tells serde to leave the usual arrangement out of files and hashes.
     pub(super) fn is_usual(&self) -> bool {
         *self == Self::default()
     }
@@ -35,9 +35,9 @@ impl Arrangement {
 /// The place of a body on the floor.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Place {
-    /// Index of the body, its number less one.
+    /// Index of the body: its number minus one.
     pub body: usize,
-    /// Unit vector from the axis of the stack to it, [x, z]; the axis of its rolling outwards is [z, −x].
+    /// Unit vector from the axis of the stack to the body, [x, z]; rolling outwards turns the body about [z, −x].
     pub outwards: [f64; 2],
 }
 
@@ -53,7 +53,7 @@ impl Stack {
         (0..usize::from(self.bodies)).map(move |position| {
             let angle = std::f64::consts::TAU * position as f64 / f64::from(self.bodies);
             let angle = turn + if mirrored { -angle } else { angle };
-            // About y, which leads from x to −z.
+            // A rotation about y turns x towards −z.
             let outwards = match (self.bodies, position) {
                 (PAPER_BODIES, 0) => [1.0, 0.0],
                 (PAPER_BODIES, _) => [-1.0, 0.0],
@@ -70,7 +70,7 @@ impl Stack {
         (position + usize::from(self.arrangement.renumbered)) % (usize::from(self.bodies) + 1)
     }
 
-    /// Centres of all bodies before they are loaded, in the order of their numbers: [x, y, z] with y upwards. They just
+    /// Centres of all bodies before loading, in the order of their numbers: [x, y, z] with y upwards. The bodies just
     /// touch; cylinders have z = 0.
     pub fn initial_positions(&self) -> Vec<[f64; 3]> {
         let displacement = self.arrangement.displacement;
@@ -92,7 +92,7 @@ impl Stack {
             };
             let (sine, cosine) = (libm::sin(turn), libm::cos(turn));
             let [x, z] = place.outwards;
-            // About y, which leads from x to −z.
+            // A rotation about y turns x towards −z.
             let turned = [x * cosine + z * sine, z * cosine - x * sine];
             let [x, z] = turned.map(|part| radius * part);
             centres[place.body] = [x, 1.0, z];
@@ -196,7 +196,7 @@ mod tests {
                     .map(|index| distance(ring[index], ring[(index + 1) % ring.len()]) - 2.0)
                     .collect();
                 gaps.sort_by(f64::total_cmp);
-                // One neighbour is nearer than the others, and one further.
+                // One pair of neighbours is nearer than the others, and one is further apart.
                 assert!(gaps[0] > 1e-5 && gaps[0] < 0.9e-3, "{gaps:?}");
                 assert!(gaps[gaps.len() - 1] > 1.1e-3, "{gaps:?}");
                 for centre in ring {

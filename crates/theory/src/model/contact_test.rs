@@ -3,7 +3,7 @@
 use super::ContactConvention;
 use serde::{Deserialize, Serialize};
 
-/// State of a cylinder when a micro-test begins. Lengths in r, speeds in r √(k_n/m).
+/// State of a cylinder at the start of a micro-test. Lengths in r, speeds in r √(k_n/m).
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct InitialMotion {
@@ -19,7 +19,7 @@ pub struct InitialMotion {
     pub spin: f64,
 }
 
-/// What a sphere has when a micro-test in space begins, beyond what a cylinder has.
+/// Further initial values of a sphere in a micro-test in space, beyond those of a cylinder.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct MotionInSpace {
@@ -33,19 +33,20 @@ pub struct MotionInSpace {
     pub spiny: f64,
 }
 
-/// How cylinder 1 is moved where its motion is prescribed: in four legs of as many steps, without rotation. The other
-/// cylinder is held.
+/// Prescribed motion of cylinder 1: four legs with the same number of steps, without rotation. The other cylinder is
+/// held.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Drive {
-    /// Steps of a leg.
+    /// Number of steps of a leg.
     pub leg_steps: u64,
     /// Velocity of each leg.
     pub legs: [[f64; 2]; 4],
 }
 
-/// Two cylinders above the floor and below the top wall, without gravity, moving for some steps, freely unless they are
-/// driven. They are placed so that one contact is closed: with the floor, with the wall, or with each other.
+/// Two cylinders above the floor and below the top wall, without gravity, for a number of steps. They move freely
+/// unless they are driven. They are placed so that one contact is closed: with the floor, with the wall, or with each
+/// other.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ContactTest {
@@ -65,18 +66,18 @@ pub struct ContactTest {
     pub wall_height: f64,
     /// Speed of the top wall, downwards.
     pub wall_speed: f64,
-    /// How the two cylinders start.
+    /// Initial state of each cylinder.
     pub initial_motions: [InitialMotion; 2],
-    /// How cylinder 1 is moved; left out, both move freely.
+    /// Prescribed motion of cylinder 1; without it, both move freely.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub drive: Option<Drive>,
-    /// Of spheres, which move in space; left out, cylinders move in the plane.
+    /// Further initial values of spheres, which move in space; without them, cylinders move in the plane.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub space: Option<[MotionInSpace; 2]>,
 }
 
 impl Drive {
-    /// Distance from the start at a step, and velocity in the step that leads to it, which is none at step 0.
+    /// Returns the distance from the start at a step, and the velocity in the step that leads to it (zero at step 0).
     pub fn motion_at(&self, step: u64, time_step: f64) -> [[f64; 2]; 2] {
         let (mut distance, mut velocity) = ([0.0; 2], [0.0; 2]);
         for (leg, own) in (0..).zip(&self.legs) {

@@ -113,7 +113,7 @@ impl HistoryUpdate {
         Self::Linearised,
     ];
 
-    /// The word in case files, manifests and on the command line.
+    /// The name in case files, in manifests and on the command line.
     pub const fn as_str(self) -> &'static str {
         match self {
             Self::Fixed => "fixed",
@@ -123,22 +123,23 @@ impl HistoryUpdate {
         }
     }
 
-    /// Whether the spring follows its contact as it turns. Those that do share one quasi-static limit.
+    /// Whether the spring turns with its contact. All rules that do so share one quasi-static limit.
     pub const fn turns(self) -> bool {
         !matches!(self, Self::Fixed)
     }
 }
 
 impl ContactConvention {
-    /// The paper's stack: arms 0 and 0, linear springs, restitution 0.7, the whole tangential force limited, the spring a
-    /// vector that is frozen while sliding and that nothing turns (the integral of v dτ in the paper, and its program).
+    /// The paper's convention: arms 0 and 0, linear springs, restitution 0.7, Coulomb's limit on the whole tangential
+    /// force, and a spring that is frozen while sliding and does not turn (the integral of v dτ in the paper, and its
+    /// program).
     pub const PAPER: Self = Self {
         history_update: HistoryUpdate::Fixed,
         ..Self::TURNING
     };
 
-    /// The same with a spring that turns with its contact, as most codes have it: what is meant where only arms or a law
-    /// are known.
+    /// The paper's convention with a spring that turns with its contact, as in most codes: the default where only arms
+    /// or a law are known.
     pub const TURNING: Self = Self {
         arms: Arms::PAPER,
         law: Law::LINEAR,
@@ -150,8 +151,8 @@ impl ContactConvention {
         moment_of_inertia: CYLINDER_INERTIA,
     };
 
-    /// What is meant where nobody says more than arms, law and number of bodies: [`PAPER`](Self::PAPER) if these are the
-    /// paper's, and otherwise the usual convention with them, whose springs turn.
+    /// The default convention where only arms, law and number of bodies are given: [`PAPER`](Self::PAPER) if all three
+    /// are the paper's, otherwise [`TURNING`](Self::TURNING) with these arms and this law.
     pub fn usual(arms: Arms, law: Law, bodies: u8) -> Self {
         let usual = Self {
             arms,
@@ -164,7 +165,7 @@ impl ContactConvention {
         }
     }
 
-    /// The usual convention, whose springs turn, but for the arms.
+    /// [`TURNING`](Self::TURNING) with other arms.
     pub const fn with_arms(arms: Arms) -> Self {
         Self {
             arms,
@@ -172,7 +173,7 @@ impl ContactConvention {
         }
     }
 
-    /// The usual convention, whose springs turn, but for the law.
+    /// [`TURNING`](Self::TURNING) with another law.
     pub const fn with_law(law: Law) -> Self {
         Self {
             law,
@@ -180,7 +181,8 @@ impl ContactConvention {
         }
     }
 
-    /// The convention for a stack of cylinders or spheres: whatever codes make of cylinders, their spheres are solid.
+    /// Adapts the convention to the bodies of `stack`: spheres are solid, whatever moment of inertia a code gives its
+    /// cylinders.
     #[must_use]
     pub fn of_bodies(self, stack: &Stack) -> Self {
         match stack.bodies {
@@ -197,12 +199,12 @@ impl ContactConvention {
         self.law.of_pairs(stiffness_ratio, self.restitution)
     }
 
-    /// The law of contacts with walls, κ being the stiffness ratio of contacts between cylinders.
+    /// The law of contacts with walls, where κ is the stiffness ratio of contacts between cylinders.
     pub fn wall_law(&self, stiffness_ratio: f64) -> ContactLaw {
         self.law.of_walls(stiffness_ratio, self.restitution)
     }
 
-    /// The largest slope of any normal force, κ being the stiffness ratio of contacts between cylinders.
+    /// Returns the largest slope of any normal force, where κ is the stiffness ratio of contacts between cylinders.
     pub fn highest_stiffness(&self, stiffness_ratio: f64) -> f64 {
         let laws = [self.law(stiffness_ratio), self.wall_law(stiffness_ratio)];
         laws.map(|law| law.highest_stiffness())
@@ -210,12 +212,12 @@ impl ContactConvention {
             .fold(0.0, f64::max)
     }
 
-    /// Whether the quasi-static limit is known in closed form: all arms are 0, springs linear, and they turn.
+    /// Whether the quasi-static limit has a closed form: all arms are 0, and springs are linear and turn.
     pub fn has_closed_form(&self) -> bool {
         self.arms == Arms::PAPER && self.law.is_linear() && self.history_update.turns()
     }
 
-    /// Every value in its range, or the first one that is not.
+    /// Checks every value; the error names the first that is out of range.
     pub fn validate(&self) -> Result<(), InvalidValue> {
         self.arms.validate()?;
         self.law.validate()?;
@@ -230,7 +232,7 @@ impl ContactConvention {
     }
 }
 
-/// The part of the convention that moves the quasi-static limit.
+/// Writes the part of the convention that affects the quasi-static limit.
 impl fmt::Display for ContactConvention {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Arms { pair, floor } = self.arms;
@@ -269,7 +271,7 @@ mod tests {
         }
     }
 
-    /// A linear law leaves no trace in a file, so that cases from before there were others keep their hashes.
+    /// A linear law is not written to a file, so that cases keep the hashes from before there were other laws.
     #[test]
     fn a_law_is_a_table_unless_it_is_linear() {
         let written = |law| serde_json::to_value(ContactConvention::with_law(law)).unwrap();

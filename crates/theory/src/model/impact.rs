@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum ImpactTarget {
-    /// A cylinder like itself, which moves towards it.
+    /// An equal cylinder, which moves towards it.
     Pair,
     /// The floor.
     Floor,
@@ -17,7 +17,7 @@ impl ImpactTarget {
     /// Every target.
     pub const ALL: [Self; 2] = [Self::Pair, Self::Floor];
 
-    /// The word in tables.
+    /// The name in tables.
     pub fn as_str(self) -> &'static str {
         match self {
             Self::Pair => "pair",
@@ -25,7 +25,7 @@ impl ImpactTarget {
         }
     }
 
-    /// The mass in the equation of the relative motion: that of a cylinder at the floor, half of it in a pair.
+    /// Mass in the equation of the relative motion: that of one cylinder at the floor, half of it in a pair.
     pub fn effective_mass(self) -> f64 {
         match self {
             Self::Pair => 0.5,
@@ -33,7 +33,7 @@ impl ImpactTarget {
         }
     }
 
-    /// The law of its contact under `convention`, κ being the stiffness ratio of pairs.
+    /// Returns the law of the contact under `convention`, where κ is the stiffness ratio of pairs.
     pub fn law(self, convention: &ContactConvention, stiffness_ratio: f64) -> ContactLaw {
         match self {
             Self::Pair => convention.law(stiffness_ratio),
@@ -41,7 +41,7 @@ impl ImpactTarget {
         }
     }
 
-    /// The arms of its contact under `convention`.
+    /// Returns the arms of the contact under `convention`.
     pub fn arms(self, convention: &ContactConvention) -> ContactArms {
         match self {
             Self::Pair => convention.arms.pair,
@@ -50,13 +50,13 @@ impl ImpactTarget {
     }
 }
 
-/// Direction of the line between the cylinders of a pair, along no axis.
+/// Direction of the line between the cylinders of a pair, not along an axis.
 const PAIR_ANGLE: f64 = 0.4;
-/// The middle of a pair, far above the floor.
+/// Midpoint of a pair, far above the floor.
 const PAIR_CENTRE: [f64; 2] = [0.0, 2.3];
-/// Height of the top wall, which nothing reaches.
+/// Height of the top wall, which no cylinder reaches.
 const WALL_HEIGHT: f64 = 4.5;
-/// Where the second cylinder rests while the first one strikes the floor.
+/// Where the second cylinder rests while the first strikes the floor.
 const BESIDE: [f64; 2] = [-6.0, 2.0];
 
 /// An impact. Lengths in r, speeds in r √(k_n/m).
@@ -70,10 +70,10 @@ pub struct Impact {
     pub stiffness_ratio: f64,
     /// Friction coefficient of the contact.
     pub friction: f64,
-    /// Speed at which the bodies approach one another.
+    /// Speed at which the bodies approach each other.
     pub approach_speed: f64,
-    /// Speed at which the surfaces slide on one another: that of the cylinder along the floor, or the sum of the two equal
-    /// spins of a pair.
+    /// Speed at which the surfaces slide on each other: that of the cylinder along the floor, or the sum of the two
+    /// equal surface speeds of a spinning pair.
     pub sliding_speed: f64,
 }
 
@@ -83,8 +83,8 @@ impl Impact {
         self.target.law(&self.convention, self.stiffness_ratio)
     }
 
-    /// The same impact as a task of so many steps, under a `convention` that a code accepts. The bodies touch half a step
-    /// after its beginning.
+    /// Returns the impact as a micro-test of `steps` steps, under a `convention` that a code accepts. The bodies touch
+    /// half a step after its start.
     pub fn test(&self, convention: ContactConvention, time_step: f64, steps: u64) -> ContactTest {
         let gap = 0.5 * time_step * self.approach_speed;
         let initial_motions = match self.target {

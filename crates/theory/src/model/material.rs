@@ -23,8 +23,8 @@ impl Material {
     /// κ of Poisson's ratio 0.3, the default of Hertz contacts.
     pub const USUAL_STIFFNESS_RATIO: f64 = 17.0 / 14.0;
 
-    /// The material of pairs whose normal force is δ^1.5 (K = 1), κ being their stiffness ratio. `None` of another power,
-    /// and of a ratio that no Poisson's ratio from 0 to 1/2 has.
+    /// The material of pairs with the normal force δ^1.5 (K = 1) and the stiffness ratio κ. `None` for another power,
+    /// and for a ratio that no Poisson's ratio from 0 to 1/2 gives.
     pub fn of_pairs(power: Power, stiffness_ratio: f64) -> Option<Self> {
         let twice = 2.0 * stiffness_ratio;
         let poisson_ratio = (twice - 2.0) / (twice - 1.0);

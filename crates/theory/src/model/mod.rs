@@ -1,4 +1,4 @@
-//! The problem: three cylinders, or spheres around one on top, and the convention of their contacts.
+//! The problem: three cylinders, or a ring of spheres with one on top, and the convention of their contacts.
 //!
 //! Units throughout: cylinder radius r = 1, cylinder mass m = 1, normal stiffness k_n = 1. Lengths are
 //! therefore in r, forces in k_n r, times in √(m/k_n), speeds in r √(k_n/m). Where the normal force of a pair is

@@ -4,7 +4,7 @@ use super::validity::{InvalidValue, positive, within};
 use super::{Arrangement, ContactConvention, Material, Power, Ring};
 use serde::{Deserialize, Serialize};
 
-/// Rigid critical floor friction μ_c = 2 − √3 = tan 15° (paper, below Eq. 3), the double nearest to it.
+/// Rigid critical floor friction μ_c = 2 − √3 = tan 15° (paper, below Eq. 3), as the nearest double.
 pub const CRITICAL_FRICTION: f64 = 0.267_949_192_431_122_7;
 
 /// Stiffness ratio κ = k_n/k_t of the paper (supplement I.A).
@@ -13,20 +13,21 @@ pub const PAPER_STIFFNESS_RATIO: f64 = 2.5;
 /// Cylinder–cylinder friction μ_d of the paper (supplement I.A).
 pub const PAPER_CYLINDER_FRICTION: f64 = 0.7;
 
-/// Stiffnesses 1/ε that are accepted, lowest and highest.
+/// Accepted range of the stiffness 1/ε.
 const STIFFNESS_RANGE: (f64, f64) = (1.0, 1e8);
 
 /// Number n of bottom bodies in the paper's stack.
 pub const PAPER_BODIES: u8 = 2;
 
-/// Numbers of bottom bodies that are accepted, lowest and highest.
+/// Accepted range of the number n of bottom bodies.
 pub const BODIES_RANGE: (u8, u8) = (PAPER_BODIES, 5);
 
 const HIGHEST_FRICTION: f64 = 1e3;
 const HIGHEST_STIFFNESS_RATIO: f64 = 1e6;
 
-/// Three equal cylinders under gravity on a rough floor, or equal spheres: three to five in a ring and one on top. Of a stack
-/// that is read nothing is left out but the number of cylinders; a case file may spell it in other ways.
+/// Three equal cylinders under gravity on a rough floor, or equal spheres: three to five in a ring and one on top.
+/// When a stack is deserialised, every key is required except `bodies` and `arrangement`; a case file may spell it in
+/// other ways.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Stack {
@@ -34,14 +35,14 @@ pub struct Stack {
     pub floor_friction: f64,
     /// Friction coefficient μ_d between two cylinders.
     pub cylinder_friction: f64,
-    /// Stiffness 1/ε = k_n r/(m g); with a law of power p it is K rᵖ/(m g), the force of a pair being K δᵖ.
+    /// Stiffness 1/ε = k_n r/(m g); K rᵖ/(m g) for a law of power p, in which the force of a pair is K δᵖ.
     pub stiffness: f64,
     /// Stiffness ratio κ = k_n/k_t.
     pub stiffness_ratio: f64,
     /// Number n of bodies on the floor: 2, the paper's cylinders, or 3 to 5 spheres in a ring, with one on top.
     #[serde(default = "paper_bodies", skip_serializing_if = "are_cylinders")]
     pub bodies: u8,
-    /// How spheres lie and are numbered.
+    /// How spheres are placed and numbered.
     #[serde(default, skip_serializing_if = "Arrangement::is_usual")]
     pub arrangement: Arrangement,
 }
@@ -50,7 +51,7 @@ pub(super) fn paper_bodies() -> u8 {
     PAPER_BODIES
 }
 
-/// Leaves `bodies` out of the paper's stack, whose hashes are those of before there were spheres.
+/// Leaves `bodies` out of the paper's stack, which keeps the hashes from before there were spheres.
 fn are_cylinders(bodies: &u8) -> bool {
     *bodies == PAPER_BODIES
 }
@@ -68,7 +69,7 @@ impl Stack {
         }
     }
 
-    /// Where the bodies lie that just touch.
+    /// Where the bodies are when they just touch.
     pub fn ring(&self) -> Ring {
         Ring::new(self.bodies)
     }
@@ -78,17 +79,17 @@ impl Stack {
         f64::from(self.bodies) + 1.0
     }
 
-    /// F + n + 1, what the floor carries under the wall force F, both in m g.
+    /// F + n + 1, the load on the floor under the wall force F, both in m g.
     pub fn floor_load(&self, force: f64) -> f64 {
         force + self.own_weight()
     }
 
-    /// The same in k_n r, as series have it.
+    /// The load on the floor in k_n r, the unit of series.
     pub fn floor_force(&self, wall_force: f64) -> f64 {
         wall_force + self.own_weight() * self.epsilon()
     }
 
-    /// κ where none is asked for, in a law of this power: the paper's, or that of Poisson's ratio 0.3.
+    /// Default κ for a law of this power: the paper's, or that of Poisson's ratio 0.3.
     pub fn usual_stiffness_ratio(power: Power) -> f64 {
         match power {
             Power::Linear => PAPER_STIFFNESS_RATIO,
@@ -96,14 +97,14 @@ impl Stack {
         }
     }
 
-    /// ε = m g/(k_n r), which is also gravity in units of k_n r/m; with a law of power p, K rᵖ⁻¹ takes the place of k_n.
+    /// ε = m g/(k_n r), which is also gravity in units of k_n r/m; for a law of power p, K rᵖ⁻¹ replaces k_n.
     pub fn epsilon(&self) -> f64 {
         1.0 / self.stiffness
     }
 
-    /// Bound of the frequencies of the stack with all its contacts, in √(k_n/m): ω² ≤ (4 + 12/κ) k/m of cylinders
-    /// and (5 + 18/κ) k/m of solid spheres at a stiffness k (largest eigenvalues, computed for κ from 1e-3 to 100), the
-    /// highest of all contacts with the lowest κ.
+    /// Upper bound of the frequencies of the stack with all its contacts, in √(k_n/m): ω² ≤ (4 + 12/κ) k/m for
+    /// cylinders and (5 + 18/κ) k/m for solid spheres (largest eigenvalues, computed for κ from 1e-3 to 100). k is the
+    /// highest stiffness of all contacts, and κ the lowest ratio.
     pub fn highest_frequency(&self, convention: &ContactConvention) -> f64 {
         let stiffness = convention.highest_stiffness(self.stiffness_ratio);
         let ratio = convention.law.lowest_stiffness_ratio(self.stiffness_ratio);
@@ -114,7 +115,7 @@ impl Stack {
         (stiffness * (normal + tangential / ratio)).sqrt()
     }
 
-    /// √(m/k) of the contacts with cylinder 1 under its weight, in √(m/k_n), from 1 on: 1 with linear
+    /// √(m/k) of the contacts with cylinder 1 under its weight, in √(m/k_n), and at least 1, the value of linear
     /// springs.
     pub fn time_scale(&self, convention: &ContactConvention) -> f64 {
         let law = convention.law(self.stiffness_ratio);
@@ -122,14 +123,14 @@ impl Stack {
         stiffness.sqrt().recip().max(1.0)
     }
 
-    /// The longest time step of a stable integration, in √(m/k_n). Leapfrog is stable up to 2/ω of the
-    /// stiffest mode.
+    /// The longest time step of a stable integration, in √(m/k_n). Leapfrog is stable up to 2/ω of the stiffest mode;
+    /// a safety factor of 0.6 is applied.
     pub fn longest_time_step(&self, convention: &ContactConvention) -> f64 {
         const SAFETY: f64 = 0.6;
         SAFETY * 2.0 / self.highest_frequency(convention)
     }
 
-    /// Every value in its range, or the first one that is not.
+    /// Checks every value; the error names the first that is out of range.
     pub fn validate(&self) -> Result<(), InvalidValue> {
         self.validate_bodies()?;
         self.validate_arrangement()?;
@@ -152,7 +153,7 @@ impl Stack {
         )
     }
 
-    /// A ring that carries a body on top.
+    /// Checks that the number of bodies makes a ring which carries a body on top.
     pub fn validate_bodies(&self) -> Result<(), InvalidValue> {
         let (fewest, most) = BODIES_RANGE;
         let accepted = format!(
@@ -161,7 +162,7 @@ impl Stack {
         self.bodies_are((fewest..=most).contains(&self.bodies), &accepted)
     }
 
-    /// What its bodies are.
+    /// "cylinders" or "spheres".
     pub fn kind(&self) -> &'static str {
         match self.bodies {
             PAPER_BODIES => "cylinders",
@@ -169,7 +170,7 @@ impl Stack {
         }
     }
 
-    /// Refuses spheres: what is not about the limit is about the paper's cylinders.
+    /// Refuses spheres: everything but the limit is for the paper's cylinders only.
     pub fn refuse_spheres(&self) -> Result<(), InvalidValue> {
         let accepted = format!("{PAPER_BODIES}, or left out: this is about cylinders alone");
         self.bodies_are(self.bodies == PAPER_BODIES, &accepted)
@@ -193,7 +194,7 @@ mod tests {
 
     #[test]
     fn critical_friction_is_two_minus_root_three() {
-        // μ_c is a root of μ² − 4μ + 1, and its derivative there is −2√3: one ulp of μ_c moves it by 2e-16.
+        // μ_c is a root of μ² − 4μ + 1, where the derivative is −2√3: one ulp of μ_c changes the value by 2e-16.
         let mu = CRITICAL_FRICTION;
         assert!((mu * mu - 4.0 * mu + 1.0).abs() < 2e-16);
         assert!((mu - libm::tan(std::f64::consts::PI / 12.0)).abs() < 1e-16);

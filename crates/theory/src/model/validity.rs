@@ -2,11 +2,11 @@
 
 use thiserror::Error;
 
-/// A value outside its range.
+/// The error of a value outside its range.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[error("`{key}` is {value}, but must be {accepted}")]
 pub struct InvalidValue {
-    /// Key of the case file, or the flag of the command line.
+    /// Key in the case file, or flag on the command line.
     pub key: String,
     /// The value as given.
     pub value: String,
@@ -25,7 +25,7 @@ impl InvalidValue {
     }
 }
 
-/// `value` must be finite and within `[lowest, highest]`.
+/// Checks that `value` is finite and within `[lowest, highest]`.
 pub fn within(key: &str, value: f64, lowest: f64, highest: f64) -> Result<(), InvalidValue> {
     if (lowest..=highest).contains(&value) {
         return Ok(());
@@ -34,7 +34,7 @@ pub fn within(key: &str, value: f64, lowest: f64, highest: f64) -> Result<(), In
     Err(InvalidValue::new(key, value, accepted))
 }
 
-/// `value` must be finite, above zero and at most `highest`.
+/// Checks that `value` is finite, above zero and at most `highest`.
 pub fn positive(key: &str, value: f64, highest: f64) -> Result<(), InvalidValue> {
     if value > 0.0 && value <= highest {
         return Ok(());
@@ -43,8 +43,8 @@ pub fn positive(key: &str, value: f64, highest: f64) -> Result<(), InvalidValue>
     Err(InvalidValue::new(key, value, accepted))
 }
 
-/// `value` with every digit, in plain notation unless that is longer than all digits of any number that is neither
-/// large nor small.
+/// Formats `value` with every digit: in plain notation up to 24 characters, which is enough for any number that is
+/// neither large nor small, and in scientific notation beyond.
 pub fn exact(value: f64) -> String {
     const LONGEST: usize = 24;
     let plain = value.to_string();
@@ -55,7 +55,7 @@ pub fn exact(value: f64) -> String {
     }
 }
 
-/// The shorter of plain and scientific notation.
+/// Formats `value` in plain or scientific notation, whichever is shorter.
 fn short(value: f64) -> String {
     let (plain, scientific) = (value.to_string(), format!("{value:e}"));
     if scientific.len() < plain.len() {

@@ -1,15 +1,15 @@
-//! How far the limit is off where arms are.
+//! Uncertainty of the limit where the arms are uncertain.
 
 use super::{Limit, quasistatic_limit};
 use crate::model::{Arms, ContactConvention, Stack};
 
-/// Smallest step of an arm by which a slope of the limit is taken. What is guaranteed of the limit, 1e-7 of F + 3, makes
-/// an error of 1e-4 F of the slope, and curvature one that is not larger.
+/// Smallest step of an arm for a slope of the limit. The limit is guaranteed to 1e-7 of F + 3, which gives the slope
+/// an error of 1e-4 F; the error from curvature is no larger.
 const STEP: f64 = 1e-3;
 
-/// By how much the limit of `stack` under `convention` may be off, in m g, because its arms are known up to
-/// `uncertainty`: the sum over the arms of the uncertainty times the slope of onset or peak, whichever is steeper. `None`
-/// if nothing yields there.
+/// Returns the uncertainty of the limit of `stack` under `convention`, in m g, when its arms are known to within
+/// `uncertainty`: the sum over the arms of uncertainty times slope, where the slope is that of onset or peak,
+/// whichever is steeper. `None` if the stack does not yield there.
 pub fn limit_uncertainty(
     stack: &Stack,
     convention: &ContactConvention,
@@ -32,7 +32,7 @@ pub fn limit_uncertainty(
     parts.sum()
 }
 
-/// The steeper of the slopes of onset and peak in one `arm`, over a `step` to both sides.
+/// Returns the steeper of the slopes of onset and peak in one `arm`, over a `step` to both sides.
 fn steepest(
     stack: &Stack,
     convention: &ContactConvention,

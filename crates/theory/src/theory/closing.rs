@@ -6,8 +6,8 @@ use super::path::{FollowedPath, RememberedBranch};
 use super::sliding::{SlidingBranch, SlidingEnd};
 use crate::model::{ContactConvention, Stack};
 
-/// The limit of `stack` along its `path`, on which contact 2–3 closes and may open again, and along the sliding branch
-/// if the floor slips while it is closed.
+/// Computes the limit of `stack` along its `path`, on which contact 2–3 closes and may open again, and along the
+/// sliding branch if the floor slips while the contact is closed.
 pub(super) fn closing_limit(
     path: &FollowedPath,
     stack: &Stack,
@@ -31,8 +31,8 @@ pub(super) fn closing_limit(
     }
 }
 
-/// Whether the floor lacks more of the friction that the first state needs than the cylinders do: it slides then, and
-/// limits b = e to less than they bear.
+/// Whether, in the first state, the floor falls further short of the friction needed than the cylinders do. The floor
+/// then slides, and limits b = e to less than the cylinders bear.
 fn floor_lacks_more(path: &FollowedPath, stack: &Stack) -> bool {
     let point = path.point(path.stations()[0]);
     stack.floor_friction * point.pair_friction <= stack.cylinder_friction * point.floor_ratio
@@ -46,9 +46,9 @@ struct SlidingStack<'a> {
 }
 
 impl SlidingStack<'_> {
-    /// `limit` with the peak of the sliding branch.
+    /// Replaces the peak of `limit` by that of the sliding branch.
     fn limit(&self, limit: Limit, convention: &ContactConvention) -> Limit {
-        // At the stress-free state nothing is closed yet.
+        // In the stress-free state no contact is closed yet.
         let onset = self.path.point(self.slip.max(self.path.stations()[0]));
         if onset.bottom_force <= 0.0 {
             return limit;
@@ -98,7 +98,7 @@ impl SlidingStack<'_> {
     }
 }
 
-/// Why the force has no peak although the floor slides.
+/// Says why the force has no peak although the floor slides.
 fn explanation(event: Event) -> String {
     let what = match event {
         Event::CylinderSlip => "the cylinders slip on each other (|q| = mu_d a)",
@@ -128,8 +128,8 @@ mod tests {
         limit
     }
 
-    /// In the first state of this stack e/d = 0.1406 and b/a = 0.463 are needed. Where the floor has less of its part, b = e is
-    /// what it bears.
+    /// The first state of this stack needs e/d = 0.1406 and b/a = 0.463. If the floor lacks more of its share, it
+    /// limits b = e.
     #[test]
     fn what_slides_from_the_start_is_what_lacks_more_of_its_friction() {
         let sliding = limit(&stack(0.1, 0.35, 0.2));

@@ -8,8 +8,8 @@ use super::quasistatic::closed_form_limit;
 use crate::model::{ContactConvention, Stack};
 use std::cell::OnceCell;
 
-/// The exact limits of all stacks that differ from one in their frictions alone: the path of equilibria knows neither, so
-/// that it is followed once.
+/// The exact limits of all stacks that differ from one another in their frictions alone. The path of equilibria
+/// depends on neither friction, so it is followed only once.
 ///
 /// ```
 /// use tristack_theory::model::{ContactConvention, Stack};
@@ -38,7 +38,7 @@ impl LimitCurve {
         }
     }
 
-    /// Whether `stack` under `convention` is on it.
+    /// Whether `stack` under `convention` is on this curve.
     pub fn holds(&self, stack: &Stack, convention: &ContactConvention) -> bool {
         let alike = Stack {
             floor_friction: self.stack.floor_friction,
@@ -48,8 +48,9 @@ impl LimitCurve {
         alike == self.stack && *convention == self.convention
     }
 
-    /// The limit of `stack`, which is on the curve: by the closed form where there is one, by the path follower otherwise.
-    /// Both leave c = 0; where the bottom cylinders touch before the floor slips, the path is followed with c > 0.
+    /// Returns the limit of `stack`, which must be on the curve: by the closed form where there is one, by the path
+    /// follower otherwise. Both assume c = 0; where the bottom cylinders touch before the floor slips, the path is
+    /// followed with c > 0.
     pub fn limit(&self, stack: &Stack) -> Limit {
         let convention = &self.convention;
         let limit = match convention.has_closed_form() {
@@ -64,9 +65,9 @@ impl LimitCurve {
         }
     }
 
-    /// What a finite wall speed adds to the `limit` of `stack`, which is on the curve, to first order in the speed. `None`
-    /// unless the floor slips first and with c = 0, where springs are rescaled, where frozen springs count alone, and where the
-    /// sliding stack does not give way.
+    /// Returns what a finite wall speed adds to the `limit` of `stack`, which must be on the curve, to first order in
+    /// the speed. `None` unless the floor slips first and with c = 0, where springs are rescaled, where Coulomb's
+    /// limit applies to frozen springs alone, and where the sliding stack does not give way.
     ///
     /// ```
     /// use tristack_theory::model::{ContactConvention, Stack};

@@ -1,9 +1,9 @@
-//! Work of a closed cycle in overlap and tangential displacement, which shows whether a contact gives back more energy than
-//! it was given.
+//! Work of a closed cycle in overlap and tangential displacement, which shows whether a contact returns more energy
+//! than it received.
 
 use crate::model::ContactLaw;
 
-/// What comes first in a cycle between two overlaps.
+/// What comes first in a cycle between two overlaps: the shear or the pressing.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum CycleOrder {
     /// Sheared at the lower overlap, pressed, sheared back at the higher one, released.
@@ -13,13 +13,13 @@ pub enum CycleOrder {
 }
 
 impl CycleOrder {
-    /// Both.
+    /// Both orders.
     pub const ALL: [Self; 2] = [Self::ShearedFirst, Self::PressedFirst];
 }
 
-/// Work that is done on a contact of `law` in a cycle between the overlaps `low` and `high` with so small a shear that the
-/// contact neither slides nor turns, over the energy k_t u²/2 of its spring at the higher overlap: what is lost if it is
-/// positive, made out of nothing if it is negative.
+/// Returns the work done on a contact of `law` in a cycle between the overlaps `low` and `high`, divided by the energy
+/// k_t u²/2 of its spring at the higher overlap. The shear is so small that the contact neither slides nor turns.
+/// Positive work is lost; negative work is energy created from nothing.
 ///
 /// W = (k_1 + k_2)u²/2 − Q u, where Q is the force of the spring after the change of the overlap (docs/theory.md,
 /// section 11.6).
@@ -52,7 +52,7 @@ mod tests {
             };
             let law = ContactConvention::with_law(law).law(1.25);
             let work = CycleOrder::ALL.map(|order| cycle_work(&law, [0.05, 0.2], order));
-            // k_t doubles from the one overlap to the other.
+            // k_t doubles from the lower overlap to the higher.
             let expected = match history {
                 TangentialHistory::Displacement => [-0.5, 0.5],
                 TangentialHistory::Force => [0.5, -0.5],

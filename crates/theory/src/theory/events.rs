@@ -1,10 +1,10 @@
-//! The four events that end the path of equilibria, and which one comes first (docs/theory.md, Eq. 43).
+//! The four events that can end the path of equilibria, and which of them comes first (docs/theory.md, Eq. 43).
 
 use super::root::bracketed_root;
 use crate::model::{Ring, Stack};
 use serde::{Deserialize, Serialize};
 
-/// The first thing that happens to the stack on its way up in load.
+/// The first event of a stack under increasing load.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Event {
@@ -16,7 +16,7 @@ pub enum Event {
     ContactCloses,
     /// The top wall reaches the top of cylinder 2.
     WallContact,
-    /// The path ends before any of them.
+    /// The path ends before any event.
     None,
 }
 
@@ -32,10 +32,10 @@ impl std::fmt::Display for Event {
     }
 }
 
-/// One state of equilibrium on the path, by what the events need. Lengths in r, forces in k_n r.
+/// A state of equilibrium on the path, reduced to what the events need. Lengths in r, forces in k_n r.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PathPoint {
-    /// T = tan(ψ/2), half the angle between the line 2–1 and the vertical.
+    /// T = tan(ψ/2), where ψ is the angle between the line 2–1 and the vertical.
     pub tangent: f64,
     /// G, overlap of the contact 1–2.
     pub pair_overlap: f64,
@@ -47,7 +47,7 @@ pub struct PathPoint {
     pub outward: f64,
     /// b/a, tangential over normal force of the contact 1–2.
     pub pair_ratio: f64,
-    /// The friction that this contact needs: b/a, or |q|/a with the whole force of a spring that nothing turns.
+    /// The friction that this contact needs: b/a, or |q|/a where the spring does not turn, with q its whole force.
     pub pair_friction: f64,
     /// e/d, tangential over normal force of the floor contacts.
     pub floor_ratio: f64,
@@ -71,13 +71,13 @@ impl PathPoint {
         2.0 - self.floor_overlap + self.rise() - self.wall_overlap
     }
 
-    /// x₂, y₁ and y₂, with the floor at 0.
+    /// Returns x₂, y₁ and y₂, with the floor at 0.
     pub(super) fn positions(&self, ring: &Ring) -> [f64; 3] {
         let height = 1.0 - self.floor_overlap;
         [ring.radius + self.outward, height + self.rise(), height]
     }
 
-    /// Distance to `event`, in its own units; negative once it has happened.
+    /// Returns the distance to `event`, in the units of its criterion; negative once it has happened.
     pub(super) fn margin(&self, event: Event, stack: &Stack) -> f64 {
         match event {
             Event::FloorSlip => stack.floor_friction - self.floor_ratio,
@@ -92,7 +92,7 @@ impl PathPoint {
 /// A path of equilibria from the stress-free state (parameter 0) upwards, first along the gravity ramp,
 /// then under the wall.
 pub trait Path {
-    /// Increasing parameters, 0 left out, at which the path is searched for events.
+    /// Increasing parameters, without 0, at which the path is searched for events.
     fn stations(&self) -> Vec<f64>;
     /// The parameter at which gravity is complete and the wall just touches, F = 0.
     fn settled(&self) -> f64;
@@ -100,14 +100,14 @@ pub trait Path {
     fn point(&self, parameter: f64) -> PathPoint;
 }
 
-/// The parameter at which `event` first happens on `path`; 0 if it has happened from the start.
+/// Returns the parameter at which `event` first happens on `path`; 0 if it has happened by the first station.
 pub(crate) fn locate(path: &(impl Path + ?Sized), event: Event, stack: &Stack) -> Option<f64> {
     let [located] = locate_until(path, [event], stack, f64::INFINITY);
     located
 }
 
-/// The same for several events, with one search of the stations up to `end`, beyond which none is looked for that is not in
-/// the same stretch.
+/// Locates several events with one search of the stations. The search stops at the first station at or beyond `end`;
+/// events found by then are returned.
 pub(super) fn locate_until<const N: usize>(
     path: &(impl Path + ?Sized),
     events: [Event; N],
@@ -222,7 +222,7 @@ mod tests {
         let (centre_2, rise) = (1.0 - 0.03, (2.0 - 0.02) * angle.cos());
         let top_of_cylinder_1 = centre_2 + rise + 1.0;
         assert!((POINT.wall_height() - (top_of_cylinder_1 - 0.01)).abs() < 1e-15);
-        // It reaches cylinder 2 when it is as high as the top of that.
+        // The wall reaches cylinder 2 when it is as high as the top of that cylinder.
         let stack = Stack::paper(0.3, 1e2);
         let margin = POINT.margin(Event::WallContact, &stack);
         assert!((POINT.wall_height() - (centre_2 + 1.0) - margin).abs() < 1e-15);

@@ -1,16 +1,16 @@
-//! Where the floor slips on the path with arms 0, without looking at anything else on the way.
+//! Where the floor slips on the path with arms 0, ignoring all other events on the way.
 //!
-//! The floor slips where G (T − μ) = ε μ, and then F = n μ/(T − μ) − 1 (docs/theory.md, Eqs. 23 and 101). As G(T) and
-//! its slope are known at every T, each step of the search takes G for straight and solves what is then a
-//! quadratic equation, the one that joins the three regimes of stiff cylinders (Eqs. 28 and 72).
+//! The floor slips where G (T − μ) = ε μ, and then F = n μ/(T − μ) − 1 (docs/theory.md, Eqs. 23 and 101). G(T) and its
+//! slope are known at every T, so each step of the search takes G to be linear and solves a quadratic equation, the
+//! one that joins the three regimes of stiff cylinders (Eqs. 28 and 72).
 
 use super::overlap::{HIGHEST_TANGENT, OverlapCurve};
 use crate::model::Stack;
 
-/// Relative to the whole way. A step leaves at most 1.5 times the square of its relative length (docs/theory.md,
-/// Eq. 72): 1.5 × 10⁻¹⁴.
+/// Length of the last step relative to the whole way. The error after a step is at most 1.5 times the square of its
+/// relative length (docs/theory.md, Eq. 72): 1.5 × 10⁻¹⁴.
 const LAST_STEP: f64 = 1e-7;
-/// Seven were needed at most over everything that the command line accepts.
+/// At most seven steps were needed over everything that the command line accepts.
 const MOST_STEPS: usize = 50;
 
 /// Where the floor slips.
@@ -22,11 +22,11 @@ pub(super) struct FloorSlip {
 }
 
 impl FloorSlip {
-    /// Slip of `stack` on `curve`; `None` if the floor has not slipped before T = 1.
+    /// Locates the slip of `stack` on `curve`; `None` if the floor has not slipped before T = 1.
     ///
-    /// G is concave, hence below its tangents, and the search comes to the root from below without ever
-    /// passing it, whatever it starts from. It starts at the larger of μ and the start of the curve, and
-    /// measures from there, so that T − μ keeps its digits.
+    /// G is concave, hence below its tangents, so the search approaches the root from below without ever passing it,
+    /// from any start. It starts at the larger of μ and the start of the curve, and measures from there, so that T − μ
+    /// keeps its digits.
     pub(super) fn on(curve: &OverlapCurve, stack: &Stack) -> Option<Self> {
         let (floor_friction, epsilon) = (stack.floor_friction, stack.epsilon());
         let bodies = f64::from(stack.bodies);
@@ -54,8 +54,8 @@ impl FloorSlip {
     }
 }
 
-/// δ with (G + G′ δ)(t + δ) = ε μ, where t = T − μ is the `clearance` (docs/theory.md, Eq. 72); not a number
-/// if there is none.
+/// Returns δ with (G + G′ δ)(t + δ) = ε μ, where t = T − μ is the `clearance` (docs/theory.md, Eq. 72); NaN if there
+/// is none.
 fn step_to_slip(overlap: f64, slope: f64, clearance: f64, target: f64) -> f64 {
     let shortfall = target - overlap * clearance;
     let growth = overlap + slope * clearance;
@@ -63,10 +63,10 @@ fn step_to_slip(overlap: f64, slope: f64, clearance: f64, target: f64) -> f64 {
     2.0 * shortfall / (growth + discriminant.sqrt())
 }
 
-/// F = f/(m g) at which the floor slips, by the closed form with arms 0, to 10⁻¹² of F + n + 1
-/// (docs/theory.md, section 5.4): the yield force of [`closed_form_limit`](super::closed_form_limit) where
-/// nothing else comes first, which is not looked at here. `None` if the stack slides under its own weight, or
-/// if the floor has not slipped before T = 1.
+/// Returns F = f/(m g) at which the floor slips, by the closed form with arms 0, to 10⁻¹² of F + n + 1
+/// (docs/theory.md, section 5.4). It is the yield force of [`closed_form_limit`](super::closed_form_limit) unless
+/// another event comes first, which is not checked here. `None` if the stack slides under its own weight, or if the
+/// floor has not slipped before T = 1.
 ///
 /// ```
 /// use tristack_theory::model::Stack;

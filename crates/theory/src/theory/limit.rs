@@ -5,11 +5,11 @@ use crate::model::Stack;
 
 /// The quasi-static limit of a stack.
 ///
-/// While contact 2–3 is closed, a floor that slides relieves it, and the force goes on rising until it opens:
-/// onset and peak are two forces then. Where c = 0 at the onset they are one.
+/// If contact 2–3 is closed when the floor starts to slide, the sliding relieves that contact, and the force rises
+/// until it opens: onset and peak are then two forces. Where c = 0 at the onset they are the same.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Limit {
-    /// The yield force F = f/(m g), which is the peak; absent when something else comes first.
+    /// The yield force F = f/(m g), which is the peak; absent when another event comes first.
     pub yield_force: Option<f64>,
     /// F at which the floor begins to slip under the wall.
     pub slip_onset: Option<f64>,
@@ -19,8 +19,8 @@ pub struct Limit {
     pub event: Event,
     /// n, number of bodies on the floor.
     pub bodies: u8,
-    /// F at which the floor slips if the other events are ignored; the closing of contact 2–3 is not, where the
-    /// path beyond it was followed.
+    /// F at which the floor slips if the other events are ignored. The closing of contact 2–3 is taken into account
+    /// where the path beyond it was followed.
     pub floor_slip_force: Option<f64>,
     /// T = tan(ψ/2) where the floor slips.
     pub tangent: Option<f64>,
@@ -36,19 +36,19 @@ pub struct Limit {
     pub peak_travel: Option<f64>,
     /// z at the peak.
     pub peak_z: Option<f64>,
-    /// b/a where the floor slips, of the tangential force along the tangent.
+    /// b/a where the floor slips, where b is the component along the tangent.
     pub pair_ratio: Option<f64>,
-    /// The friction that the cylinders need until the floor slips: b/a, or |q|/a with the whole force of a spring that
-    /// nothing turns.
+    /// The friction that the cylinders need until the floor slips: b/a, or |q|/a where springs do not turn, with q the
+    /// whole force.
     pub pair_friction: Option<f64>,
-    /// The stack at rest under its own weight: x₂, y₁ and y₂, in r; absent where it does not stand
-    /// without sliding.
+    /// The stack at rest under its own weight: x₂, y₁ and y₂, in r; absent unless it stands without sliding.
     pub rest: Option<[f64; 3]>,
-    /// √(m/k) of the stack at rest, in √(m/k_n), from 1 on: what is slow for it takes so many times longer than with
-    /// linear springs.
+    /// √(m/k) of the stack at rest, in √(m/k_n), at least 1: how many times longer the stack takes to respond than
+    /// with linear springs.
     pub time_scale: f64,
-    /// Whether a run reaches it only if gravity was applied slowly: what springs remember depends on the way, and the limit
-    /// is that of a gravity ramp, on which all bodies get heavier together; or oscillations die away slowly.
+    /// Whether a run reaches this limit only if gravity was applied slowly. Either springs remember the loading path,
+    /// and the limit is that of a gravity ramp on which all bodies gain weight together, or oscillations die away
+    /// slowly.
     pub needs_slow_ramp: bool,
     /// Why there is no yield force.
     pub reason: Option<String>,
@@ -66,7 +66,7 @@ impl Limit {
         Self::before(others, path, slip, stack)
     }
 
-    /// The same with the events that end the path.
+    /// The limit as by [`of`](Self::of), where `others` are the events that can end the path before the floor slips.
     pub(super) fn before<const N: usize>(
         others: [Event; N],
         path: &impl Path,
@@ -79,7 +79,7 @@ impl Limit {
         let force_at = |point: PathPoint| {
             ring.bodies * point.floor_force * stack.stiffness - stack.own_weight()
         };
-        // A wall cannot pull: where its force has fallen below 0 it has left the stack.
+        // A wall cannot pull: once its force has fallen below 0, it has left the stack.
         let slip = slip.filter(|&slip| own_weight || force_at(path.point(slip)) >= 0.0);
         let under_the_wall = slip.filter(|_| !own_weight);
         let event = first_event(others, path, slip, stack);
@@ -115,12 +115,12 @@ impl Limit {
         }
     }
 
-    /// Wall travel to the slip onset, or to the peak of a stack that began to slide under its own weight.
+    /// Wall travel to the slip onset, or to the peak if the stack began to slide under its own weight.
     pub fn travel_to_watch(&self) -> Option<f64> {
         self.wall_travel.or(self.peak_travel)
     }
 
-    /// Whether the force rises further once the floor slips.
+    /// Whether the force rises further after the floor has begun to slip.
     pub fn rises_after_onset(&self) -> bool {
         self.slip_onset != self.peak_force
     }
@@ -195,7 +195,7 @@ mod tests {
 
     #[test]
     fn a_stack_that_the_wall_has_left_before_the_floor_slips_has_no_yield_force() {
-        // Found at random: hardly any tangential stiffness, and cylinders that do not slip.
+        // Found by a random search: hardly any tangential stiffness, and cylinders that do not slip.
         let stack = Stack {
             stiffness_ratio: 741.0,
             cylinder_friction: 127.0,

@@ -42,7 +42,7 @@ pub(crate) use small_displacement::{naive_load, perturbation_load};
 
 use crate::model::{ContactConvention, Stack};
 
-/// The exact quasi-static limit of `stack` under `convention` ([`LimitCurve`], for one stack).
+/// Returns the exact quasi-static limit of `stack` under `convention`. See [`LimitCurve`] for many stacks.
 pub fn quasistatic_limit(stack: &Stack, convention: &ContactConvention) -> Limit {
     LimitCurve::new(stack, convention).limit(stack)
 }
@@ -60,7 +60,7 @@ mod tests {
             quasistatic_limit(&stack, &ContactConvention::TURNING),
             closed
         );
-        // The two agree to nine digits, not to the last.
+        // The two agree to nine digits, but not to the last bit.
         assert_ne!(followed_limit(&stack, &ContactConvention::TURNING), closed);
         for arms in [Arms::reciprocal(-0.5, 0.0), Arms::reciprocal(0.0, -0.5)] {
             let convention = ContactConvention::with_arms(arms);

@@ -13,12 +13,12 @@ use std::sync::LazyLock;
 /// At T = 1 the centre of cylinder 1 has sunk to the level of the other two.
 pub(super) const HIGHEST_TANGENT: f64 = 1.0;
 
-/// Over √t from √μ_c to 1 the integrand is analytic within an ellipse whose semi-axes add up to 6 half
-/// lengths, so that the error of n nodes is below 6⁻²ⁿ: 12 nodes leave nothing but round-off.
+/// Over √t from √μ_c to 1 the integrand is analytic within an ellipse whose semi-axes add up to 6 half lengths. The
+/// error of n nodes is therefore below 6⁻²ⁿ, and 12 nodes leave only round-off.
 static QUADRATURE: LazyLock<GaussLegendre> =
     LazyLock::new(|| GaussLegendre::new(NonZeroUsize::new(12).expect("12 is not zero")));
 
-/// G(T), the overlap of the contact 1–2 of three cylinders in r, at T = μ_c + `beyond`.
+/// Returns G(T), the overlap of the contact 1–2 of three cylinders in r, at T = μ_c + `beyond`.
 pub fn pair_overlap(beyond: f64, stiffness_ratio: f64) -> f64 {
     let curve = OverlapCurve {
         start: CRITICAL_FRICTION,
@@ -27,7 +27,7 @@ pub fn pair_overlap(beyond: f64, stiffness_ratio: f64) -> f64 {
     curve.overlap(beyond)
 }
 
-/// G(T) of every stack that has this stiffness ratio κ and was free of force at the same T.
+/// G(T) of all stacks that have the stiffness ratio κ and were free of force at the same T.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct OverlapCurve {
     /// T where all contacts are free of force.
@@ -37,7 +37,7 @@ pub(super) struct OverlapCurve {
 }
 
 impl OverlapCurve {
-    /// The curve on which both gravity ramp and compression lie.
+    /// The curve of stacks whose bodies just touch at first, for gravity ramp and compression alike.
     pub(super) fn from_just_touching(stack: &Stack) -> Self {
         Self {
             start: stack.ring().critical_friction,
@@ -110,7 +110,7 @@ mod tests {
     fn twelve_nodes_are_as_good_as_forty() {
         let more = GaussLegendre::new(NonZeroUsize::new(40).unwrap());
         for kappa in RATIOS {
-            // Eqs. 18 and 19 as they stand, over ln s.
+            // Eqs. 18 and 19 as written, integrated over ln s.
             let (p, q) = (
                 (2.0 + kappa) / (2.0 * (1.0 + kappa)),
                 (1.0 + 2.0 * kappa) / (2.0 * (1.0 + kappa)),

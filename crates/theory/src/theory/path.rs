@@ -1,7 +1,7 @@
 //! The quasi-static limit for any arms and contact law, by following the path of equilibria.
 //!
-//! The [balance] of forces is a differential equation in the angle ψ, with contact 2–3 closed or open. The path is
-//! continuous where that contact closes or opens, its slope is not: the integration stops there and starts anew
+//! The [balance] of forces is a differential equation in the angle ψ, with contact 2–3 closed or open. Where that
+//! contact closes or opens, the path is continuous but its slope is not, so the integration stops there and restarts
 //! (docs/theory.md, Eqs. 47 to 52, and section 11 for laws other than the linear one).
 
 mod balance;
@@ -19,13 +19,13 @@ pub(super) use remembered::{RememberedBranch, remembered_overlap_at_rest};
 pub use speed::SpeedExcess;
 
 const RELATIVE_TOLERANCE: f64 = 1e-13;
-/// Start of the path on its first ray, relative to the angle that the gravity ramp turns to first order. The ray leaves
-/// out that part of the lengths there, which is the square of it, 1e-16, of those at rest.
+/// Start of the path on its first ray, as a fraction of the angle that the gravity ramp turns to first order. The ray
+/// neglects this fraction of the lengths there, which is its square, 1e-16, relative to the lengths at rest.
 const START: f64 = 1e-8;
-/// First station on the gravity ramp, relative to the angle it turns to first order; each further one lies
+/// First station on the gravity ramp, as a fraction of the angle it turns to first order. Each further station lies
 /// twice as far, up to the spacing below.
 const FIRST_STATION: f64 = 1e-7;
-/// Largest distance of stations along the gravity ramp.
+/// Largest spacing of stations along the gravity ramp.
 const RAMP_SPACING: f64 = 0.125;
 /// Distance of the stations under the wall, in the logarithm of the angle turned.
 const WALL_SPACING: f64 = 0.125;
@@ -60,7 +60,7 @@ struct Knot {
     closed: bool,
 }
 
-/// The followed path: states at the stations, from each of which it can be continued.
+/// The followed path, as states at the stations; it can be continued from each of them.
 pub(super) struct FollowedPath {
     contacts: Contacts,
     /// The angle turned under gravity, to first order in ε.
@@ -156,7 +156,7 @@ impl FollowedPath {
         }
     }
 
-    /// The knot at `to`, or where contact 2–3 closes or opens before that.
+    /// Returns the knot at `to`, or an earlier one where contact 2–3 closes or opens.
     fn next_knot(&self, to: f64) -> Option<Knot> {
         let last = self.last();
         let state = self.advance(last, to)?;
@@ -173,7 +173,7 @@ impl FollowedPath {
             let reached = self.advance(last, parameter);
             reached.map_or(f64::NAN, |state| self.outward(&state))
         };
-        // Just after a change y = 0 up to round-off, and no root lies ahead: the path goes on to the station.
+        // Just after a change, y is 0 up to round-off and there is no root ahead: the path continues to the station.
         let change = bracketed_root(outward, last.parameter, to);
         let change = change.filter(|&change| change > last.parameter);
         let change = change.unwrap_or(to);
@@ -188,7 +188,7 @@ impl FollowedPath {
         state.outward(&self.contacts.ring)
     }
 
-    /// The state at a parameter; not a number where there is none.
+    /// Returns the state at a parameter; NaN where there is none.
     fn state(&self, parameter: f64) -> State {
         let parameter = parameter.max(START);
         let after = self
@@ -224,7 +224,8 @@ impl FollowedPath {
     }
 }
 
-/// The state at the end of a range of the parameter that `equation` makes of `start`; `None` if there is none.
+/// Integrates `equation` from `start` over a range of the parameter and returns the state at its end; `None` if there
+/// is none.
 fn integrated<const N: usize>(
     equation: &impl ODE<f64, [f64; N]>,
     [from, to]: [f64; 2],
@@ -264,7 +265,7 @@ pub fn followed_limit(stack: &Stack, convention: &ContactConvention) -> Limit {
     limit_on(&path, stack, convention)
 }
 
-/// The same on the `path` of the stack.
+/// The limit along the given `path` of the stack.
 pub(super) fn limit_on(
     path: &FollowedPath,
     stack: &Stack,
@@ -278,7 +279,7 @@ pub(super) fn limit_on(
     }
 }
 
-/// The path of equilibria of `stack`, which does not depend on its frictions.
+/// Follows the path of equilibria of `stack`, which does not depend on its frictions.
 pub(super) fn followed_path(
     stack: &Stack,
     convention: &ContactConvention,
@@ -287,7 +288,7 @@ pub(super) fn followed_path(
     FollowedPath::new(Contacts::new(stack, convention, bottom))
 }
 
-/// The same with c = 0, of bodies that begin in another ring than the one in which they just touch each other.
+/// Follows the path with c = 0 for bodies that start in a `ring` other than the one in which they just touch.
 pub(super) fn path_from(ring: Ring, stack: &Stack, convention: &ContactConvention) -> FollowedPath {
     let contacts = Contacts::new(stack, convention, BottomContact::Ignored);
     FollowedPath::new(contacts.in_ring(ring))

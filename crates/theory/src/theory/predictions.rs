@@ -1,4 +1,4 @@
-//! Every theory for one stack, side by side.
+//! All theories for one stack, side by side.
 
 use super::{
     ElasticRoot, Limit, LimitCurve, RigidYield, SpeedExcess, elastic_root, naive_load,
@@ -6,7 +6,7 @@ use super::{
 };
 use crate::model::{ContactConvention, Stack};
 
-/// The yield force according to one theory, or the reason why it has none.
+/// The yield force according to one theory, or why that theory gives none.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Prediction {
     /// F = f/(m g).
@@ -24,12 +24,12 @@ impl Prediction {
     }
 }
 
-/// The yield force of one stack by every theory.
+/// The yield force of one stack according to every theory.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Predictions {
     /// The stack.
     pub stack: Stack,
-    /// Its contacts, which concern the quasi-static limit alone.
+    /// The contact convention, which affects the quasi-static limit alone.
     pub convention: ContactConvention,
     /// Rigid cylinders.
     pub rigid: RigidYield,
@@ -47,22 +47,23 @@ pub struct Predictions {
     pub moving: Option<MovingWall>,
 }
 
-/// What a moving wall adds to the quasi-static limit.
+/// The effect of a moving wall on the yield force.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MovingWall {
-    /// Its speed in r √(k_n/m).
+    /// Speed of the wall in r √(k_n/m).
     pub speed: f64,
-    /// What is added per speed; `None` where [`LimitCurve::speed_excess`] knows none.
+    /// What is added per unit of speed; `None` where [`LimitCurve::speed_excess`] gives none.
     pub excess: Option<SpeedExcess>,
 }
 
 impl Predictions {
-    /// Every theory for `stack` under `convention`.
+    /// Evaluates every theory for `stack` under `convention`.
     pub fn new(stack: &Stack, convention: &ContactConvention) -> Self {
         Self::on(&LimitCurve::new(stack, convention), stack, convention)
     }
 
-    /// Every theory for each of `stacks`, with one path of equilibria for neighbours that differ in their frictions alone.
+    /// Evaluates every theory for each of `stacks`. Consecutive stacks that differ in their frictions alone share one
+    /// path of equilibria.
     pub fn of_each<'a>(
         stacks: impl IntoIterator<Item = &'a Stack>,
         convention: &ContactConvention,
@@ -98,7 +99,7 @@ impl Predictions {
         }
     }
 
-    /// The same with what a wall of this `speed` in r √(k_n/m) adds to first order.
+    /// Adds the effect of a wall that moves at this `speed`, in r √(k_n/m), to first order.
     #[must_use]
     pub fn at_speed(self, speed: f64) -> Self {
         let curve = LimitCurve::new(&self.stack, &self.convention);
@@ -109,7 +110,7 @@ impl Predictions {
         }
     }
 
-    /// F of the peak at the speed of the wall, to first order.
+    /// Peak of F at the speed of the wall, to first order.
     pub fn moving_peak(&self) -> Option<f64> {
         let moving = self.moving?;
         Some(self.quasistatic.peak_force? + moving.excess?.peak * moving.speed)

@@ -10,8 +10,8 @@ use crate::model::{Ring, Stack};
 const STATIONS: usize = 256;
 const EARLY_STATIONS: i32 = 24;
 
-/// The path of equilibria with the parameter T − μ_c (docs/theory.md, Eqs. 14, 31 and 101; on the gravity
-/// ramp Eq. 10).
+/// The path of equilibria, with T − μ_c as its parameter (docs/theory.md, Eqs. 14, 31 and 101; Eq. 10 on the gravity
+/// ramp).
 pub(super) struct ClosedForm {
     epsilon: f64,
     ring: Ring,
@@ -33,8 +33,8 @@ impl ClosedForm {
 }
 
 impl Path for ClosedForm {
-    /// Evenly spaced, and ever closer towards the start: near κ = (2 + √3)/(2√3) the bottom cylinders touch
-    /// for a short while before they part.
+    /// Evenly spaced stations, and closer and closer ones towards the start: near κ = (2 + √3)/(2√3) the bottom
+    /// cylinders touch for a short while before they part.
     fn stations(&self) -> Vec<f64> {
         let spacing = self.end / STATIONS as f64;
         let early = (1..=EARLY_STATIONS)
@@ -73,7 +73,7 @@ impl Path for ClosedForm {
     }
 }
 
-/// The exact limit of `stack` under the paper's arms.
+/// The exact limit of `stack` with the paper's arms.
 pub fn closed_form_limit(stack: &Stack) -> Limit {
     let mut path = ClosedForm::whole(stack);
     let slip = FloorSlip::on(&path.curve, stack).map(|slip| slip.beyond);
@@ -160,7 +160,7 @@ mod tests {
             (settled.floor_overlap / 0.015 - 1.0).abs() < 1e-14,
             "d = 3 m g/2"
         );
-        // Half-way up the ramp the floor bears three times what the contact does.
+        // Half-way up the ramp the floor contact carries three times the force of the pair contact.
         let below = path.point(0.5 * path.settled());
         assert_eq!(below.wall_force, 0.0);
         assert_eq!(below.floor_overlap, 3.0 * below.pair_overlap);

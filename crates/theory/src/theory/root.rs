@@ -2,7 +2,7 @@
 
 const MOST_ITERATIONS: usize = 400;
 
-/// Root of `function` between `low` and `high`, at which it must have opposite signs (or vanish).
+/// Returns a root of `function` between `low` and `high`, where its signs must be opposite (or a value must be zero).
 ///
 /// Chandrupatla's method (Advances in Engineering Software 28 (1997) 145): inverse quadratic
 /// interpolation where it is safe, bisection elsewhere. It converges in the argument's own relative
@@ -15,7 +15,7 @@ pub fn bracketed_root(function: impl Fn(f64) -> f64, low: f64, high: f64) -> Opt
     if !opposite {
         return None;
     }
-    // Otherwise its sign, which it does not have, would decide on which side the root is looked for.
+    // Without this return, the sign of the zero would decide on which side the search continues.
     if f1 == 0.0 {
         return Some(high);
     }
@@ -48,8 +48,8 @@ pub fn bracketed_root(function: impl Fn(f64) -> f64, low: f64, high: f64) -> Opt
     None
 }
 
-/// The argument of the only maximum of `function` between `low` and `high`, by golden sections; the error of the
-/// maximum is of second order in the width that is left.
+/// Returns the argument of the only maximum of `function` between `low` and `high`, by golden sections. The error of
+/// the maximum is of second order in the width that is left.
 pub(super) fn maximum_between(function: impl Fn(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
     const SECTIONS: usize = 40;
     let golden = 0.5 * (5f64.sqrt() - 1.0);
@@ -64,7 +64,7 @@ pub(super) fn maximum_between(function: impl Fn(f64) -> f64, mut low: f64, mut h
     0.5 * (low + high)
 }
 
-/// Where to look next between x1 and x2, as a fraction of the way.
+/// Returns the next argument to try, as a fraction of the way from x1 to x2.
 fn next_fraction([x1, x2, x3]: [f64; 3], [f1, f2, f3]: [f64; 3]) -> f64 {
     let position = (x1 - x2) / (x3 - x2);
     let height = (f1 - f2) / (f3 - f2);
@@ -114,7 +114,7 @@ mod tests {
         assert_eq!(bracketed_root(lost, -1.0, 1.0), None);
     }
 
-    /// Root of `function` in (0, 1), and how often it was asked.
+    /// Returns the root of `function` in (0, 1) and the number of evaluations.
     fn counted(function: impl Fn(f64) -> f64) -> (f64, usize) {
         let asked = std::cell::Cell::new(0);
         let counting = |x: f64| {
@@ -125,7 +125,8 @@ mod tests {
         (root, asked.get())
     }
 
-    /// Own past: what interpolation saves is as much a property of the method as the root.
+    /// A regression test against earlier results: the evaluations saved characterise the method as much as the root
+    /// does.
     #[test]
     fn regress_interpolation_saves_this_many_evaluations() {
         type Function = fn(f64) -> f64;

@@ -1,14 +1,14 @@
-//! The quasi-static limit after the paper's preparation between side walls (its supplement, I.B), to leading
-//! order in what the walls do.
+//! The quasi-static limit after the paper's preparation between side walls (its supplement, I.B), to leading order in
+//! the effect of the walls.
 //!
 //! The push A rolls the bottom cylinders to x₂ = 1 − A/3 before the top one lies on them. From there the springs
 //! of both tangential contacts accumulate as they do from just touching (docs/theory.md, Eqs. 68 and 69):
 //!
 //! 2 κ b = (x₂ − x₂⁰) + ∫ρ dψ,  x₂⁰ = 1 − A/3 = 2 sin ψ₀.
 //!
-//! Wherever neither walls nor contact 2–3 bear a force, b = G T, and differentiation gives the same equation
-//! for G(T) as after a gravity ramp, with another start: G(T₀) = 0, T₀ = tan(ψ₀/2) < μ_c. The detour of the path
-//! through states held by walls or by contact 2–3 changes ∫ρ dψ by the area between the paths in the plane of
+//! Wherever neither the walls nor contact 2–3 carry a force, b = G T, and differentiation gives the same equation for
+//! G(T) as after a gravity ramp, with another start: G(T₀) = 0, T₀ = tan(ψ₀/2) < μ_c. The path also passes through
+//! states held by walls or by contact 2–3. This detour changes ∫ρ dψ by the area between the two paths in the plane of
 //! ρ and ψ, which is of order ε²: as much as a change of A by some 0.03 ε².
 
 use super::floor_slip::FloorSlip;
@@ -16,17 +16,18 @@ use super::overlap::OverlapCurve;
 use super::path::{limit_on, path_from};
 use crate::model::{CRITICAL_FRICTION, ContactConvention, HistoryUpdate, Ring, Stack};
 
-/// A*, the largest push after which the bottom cylinders of the plane stack end without contact, in r, to leading order in ε, if
-/// nothing slides during the preparation (docs/theory.md, Eq. 70).
+/// Returns A*, in r, to leading order in ε: the largest push after which the bottom cylinders of the plane stack end
+/// without contact, if nothing slides during the preparation (docs/theory.md, Eq. 70).
 ///
-/// With A* they end just touching, at x₂ = 1, with a = G = ε/2 and b = a T. To leading order T = μ_c and b = ε μ_c/2,
-/// and ψ has changed by ε/(4√3) since just touching at 30° (2 sin ψ = 1 + ε/4) and by A/(3√3) more since ψ₀:
+/// After the push A* they end just touching, at x₂ = 1, with a = G = ε/2 and b = a T. To leading order T = μ_c and b =
+/// ε μ_c/2. Since ψ₀, ψ has changed by A/(3√3) up to 30°, where the cylinders just touch, and by ε/(4√3) from there (2
+/// sin ψ = 1 + ε/4):
 ///
 /// ```text
 /// κ μ_c ε = A/3 + 2 (ε/(4√3) + A/(3√3))    =>    A* = 3 ε (κ μ_c − 1/(2√3))/(1 + 2/√3)
 /// ```
 ///
-/// It is 0 at κ = 1.07735, below which contact 2–3 closes under any load (docs/theory.md, section 7.3).
+/// A* is 0 at κ = 1.07735; for a smaller κ, contact 2–3 closes under any load (docs/theory.md, section 7.3).
 ///
 /// ```
 /// use tristack_theory::model::Stack;
@@ -39,9 +40,9 @@ pub fn critical_push(stack: &Stack) -> f64 {
     3.0 * stack.epsilon() * spread / (1.0 + 2.0 / root)
 }
 
-/// F at the slip of the floor after walls pushed in by `push`, in m g, with arms 0; `None` if the floor does
-/// not slip, and of spheres; springs change by this rule as their contacts turn. It holds where nothing slides before, and
-/// where contact 2–3 has opened by then; other events are ignored.
+/// Returns F, in m g, at which the floor slips after the walls have pushed in by `push`, with arms 0 and springs that
+/// follow the rule `history_update`. `None` if the floor does not slip, and for spheres. The result holds if nothing
+/// slides before and contact 2–3 has opened by then; other events are ignored.
 ///
 /// ```
 /// use tristack_theory::model::{HistoryUpdate, Stack};
@@ -91,8 +92,8 @@ mod tests {
         }
     }
 
-    /// A push is an angle at which springs are free of force. What a spring that nothing turns makes of it differs from what a
-    /// turning one makes by the square of the displacements.
+    /// A push amounts to another angle at which springs are free of force. The effect on springs that do not turn
+    /// differs from that on turning ones by the square of the displacements.
     #[test]
     fn a_push_does_nearly_the_same_to_springs_that_nothing_turns() {
         let difference = |stiffness: f64| {
@@ -133,8 +134,8 @@ mod tests {
         }
     }
 
-    /// F where the floor slips, by Runge's and Kutta's method from G(T₀) = 0 and bisection; its error is of fourth
-    /// order in steps of 10⁻⁴.
+    /// F where the floor slips, by the Runge–Kutta method from G(T₀) = 0 and bisection; the error is of fourth order
+    /// in steps of 10⁻⁴.
     fn summed_force(stack: &Stack, start: f64) -> f64 {
         let (kappa, epsilon, mu) = (stack.stiffness_ratio, stack.epsilon(), stack.floor_friction);
         let slope = |t: f64, g: f64| {

@@ -1,27 +1,29 @@
 //! The states in which the floor slides while contact 2–3 is closed, for any arms and power of the normal force.
 //!
-//! With e = μ d in place of the floor spring, equilibrium alone fixes the overlap G and the floor load d of each
-//! direction (T − μ_c) : (−2y/x₀) = u : 1 − u. The states remember neither springs nor preparation, and torque arms and
-//! normal force are all that they see of a convention (docs/theory.md, Eqs. 74 to 76 and 87 to 89). On the way from u = 0,
-//! where T = μ_c, to u = 1, where the contact opens, the load grows until the end, or to a maximum shortly before.
-//! T alone would not do: with some arms it falls again just before the contact opens, unless springs are linear.
+//! With e = μ d in place of the floor spring, equilibrium alone fixes the overlap G and the floor load d for each
+//! direction u, where (T − μ_c) : (−2y/x₀) = u : 1 − u. The states depend neither on springs nor on the preparation;
+//! of a convention, only torque arms and normal force matter (docs/theory.md, Eqs. 74 to 76 and 87 to 89). From u = 0,
+//! where T = μ_c, to u = 1, where the contact opens, the load grows until the end, or until a maximum shortly before.
+//! T is not a suitable parameter: unless springs are linear, some arms make it fall again just before the contact
+//! opens.
 
 use super::events::{Event, PathPoint};
 use super::overlap::HIGHEST_TANGENT;
 use super::root::{bracketed_root, maximum_between};
 use crate::model::{Arms, ContactConvention, ContactLaw, Ring, Stack};
 
-/// The bottom cylinders coincide.
+/// Overlap at which the bottom cylinders coincide.
 const LARGEST_BOTTOM_OVERLAP: f64 = 2.0;
-/// The arm of the floor changes d by a small part of its own change: each step gives a digit or more.
+/// Maximum number of iterations for d. The floor arm changes d by a small part of its own change, so each step gains a
+/// digit or more.
 const MOST_STEPS: usize = 60;
-/// Relative change of d in the last step that still counts as found.
+/// Relative change of d in the last step at which d counts as found.
 const FOUND: f64 = 1e-12;
-/// Halvings of a distance at which there is no floor load.
+/// Maximum number of halvings of a distance at which no floor load balances.
 const MOST_HALVINGS: usize = 60;
-/// Distance from which the balanced state is looked for, in units of the overlap that a weight makes.
+/// First distance in the search for the balanced state, in units of the overlap under one weight.
 const NEAREST: f64 = 1e-3;
-/// Part of a branch before its end by which its load is seen to rise or fall there.
+/// Fraction of a branch before its end over which its load is seen to rise or fall.
 const LAST_PART: f64 = 1e-6;
 /// u where contact 2–3 opens.
 pub(super) const OPENING: f64 = 1.0;
@@ -36,17 +38,17 @@ pub(super) struct SlidingBranch {
     wall: ContactLaw,
 }
 
-/// How a stack ends whose floor slides while contact 2–3 is closed.
+/// How the loading ends for a stack whose floor slides while contact 2–3 is closed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum SlidingEnd {
     /// The load has a maximum.
     Peak(PathPoint),
-    /// Something else is there before that.
+    /// Another event precedes the maximum.
     Other(Event),
 }
 
-/// The peak on the branch of the states `point` beyond that at u = `start`, or what comes before it, and its u. The wall is
-/// lowest at the peak.
+/// Returns the peak on the branch of states `point` beyond u = `start`, or the event that precedes it, and the u of
+/// the peak. The wall is lowest at the peak.
 pub(super) fn end_of_branch(
     point: impl Fn(f64) -> PathPoint,
     start: f64,
@@ -88,12 +90,12 @@ struct Place {
 }
 
 impl Place {
-    /// T = μ_c + `beyond` and −2y/x₀ = `bottom_overlap`.
+    /// The place with T = μ_c + `beyond` and −2y/x₀ = `bottom_overlap`.
     fn new(ring: &Ring, beyond: f64, bottom_overlap: f64) -> Self {
         let tangent = ring.critical_friction + beyond;
         let square = tangent * tangent;
         let sum = 0.5 * (1.0 + square);
-        // (1 + T²) y/x₀ of cylinders that do not overlap.
+        // (1 + T²) y/x₀ for cylinders that do not overlap.
         let opened = beyond * (ring.critical_friction.recip() - tangent);
         Self {
             beyond,
@@ -117,32 +119,33 @@ impl SlidingBranch {
         }
     }
 
-    /// u of a state.
+    /// Returns u of a state.
     pub(super) fn direction(&self, point: &PathPoint) -> f64 {
         let beyond = point.tangent - self.ring.critical_friction;
         beyond / (beyond + self.ring.neighbour_overlap(point.outward))
     }
 
-    /// The peak beyond the state at u = `start`, or what comes before it; cylinders that slip meanwhile with c > 0 end
-    /// nothing, as long as they would stick at the peak.
+    /// Returns the peak beyond the state at u = `start`, or the event that precedes it. Slip between the cylinders
+    /// while c > 0 does not end the branch as long as they stick at the peak.
     pub(super) fn end(&self, start: f64) -> SlidingEnd {
         end_of_branch(|direction| self.point(direction), start, &self.stack).0
     }
 
-    /// T − μ_c and the state in which the wall just touches, F = 0, of a stack that began to slide under its own weight.
+    /// Returns T − μ_c and the state in which the wall just touches, F = 0, for a stack that began to slide under its
+    /// own weight.
     pub(super) fn place_at_rest(&self) -> Option<(f64, PathPoint)> {
         let direction = self.at_rest()?;
         Some((self.place(direction)?.beyond, self.point(direction)))
     }
 
-    /// u of the state in which the wall just touches, F = 0, of a stack that began to slide under its own weight; `None`
-    /// if contact 2–3 opens before gravity is complete.
+    /// Returns u of the state in which the wall just touches, F = 0, for a stack that began to slide under its own
+    /// weight; `None` if contact 2–3 opens before gravity is complete.
     pub(super) fn at_rest(&self) -> Option<f64> {
         let missing = |direction: f64| self.point(direction).wall_force * self.stack.stiffness;
         bracketed_root(missing, 0.0, OPENING)
     }
 
-    /// The state at u = `direction` under the wall; not a number where there is none.
+    /// Returns the state at u = `direction` under the wall; NaN where there is none.
     pub(super) fn point(&self, direction: f64) -> PathPoint {
         let place = self
             .place(direction)
@@ -165,8 +168,8 @@ impl SlidingBranch {
         }
     }
 
-    /// The first place in a direction in which all forces balance: what pushes cylinder 2 outwards grows about as the power
-    /// p of the distance from the stress-free state (docs/theory.md, section 11.5).
+    /// Returns the first place in a direction at which all forces balance. The outward push on cylinder 2 grows
+    /// roughly as the power p of the distance from the stress-free state (docs/theory.md, section 11.5).
     fn place(&self, direction: f64) -> Option<Place> {
         let at = |distance: f64| {
             Place::new(
@@ -201,7 +204,8 @@ impl SlidingBranch {
         None
     }
 
-    /// What the horizontal balance of cylinder 2 lacks, multiplied by (1 + T²)/2 (docs/theory.md, Eq. 88).
+    /// Returns the residual of the horizontal balance of cylinder 2, multiplied by (1 + T²)/2 (docs/theory.md, Eq.
+    /// 88).
     fn outward_push(&self, place: &Place) -> f64 {
         let load = self.load(place);
         let lever_sum = place.sum + place.difference * self.lever_ratio(place, load);
@@ -210,8 +214,8 @@ impl SlidingBranch {
             - self.stack.floor_friction * load * lever_sum
     }
 
-    /// d of the vertical balance of cylinder 1, whose lever ratio depends on it (docs/theory.md, Eq. 89); not a number where no
-    /// load balances, as with an arm of the floor that grows faster with d than the weight that it lifts.
+    /// Returns d from the vertical balance of cylinder 1; the lever ratio in it depends on d (docs/theory.md, Eq. 89).
+    /// NaN where no load balances, as with a floor arm that grows faster with d than the weight that it lifts.
     fn load(&self, place: &Place) -> f64 {
         let weight = self.stack.epsilon() * place.sum;
         let pressing = self.law.force(place.overlap) * place.difference + weight;
@@ -231,7 +235,7 @@ impl SlidingBranch {
         }
     }
 
-    /// R_f/R_c at a floor load.
+    /// Returns R_f/R_c at a floor load.
     fn lever_ratio(&self, place: &Place, load: f64) -> f64 {
         let Arms { pair, floor } = self.arms;
         (1.0 + floor.torque * self.wall.overlap(load)) / (1.0 + pair.torque * place.overlap)
@@ -277,7 +281,7 @@ mod tests {
         }
     }
 
-    /// The floor load depends on the arm of the floor, by the overlap that it makes.
+    /// The floor load depends on the floor arm, through the overlap that the load itself causes.
     #[test]
     fn stiff_cylinders_balance_to_the_same_part_of_their_load() {
         let stiffness = 1e6;
@@ -291,7 +295,7 @@ mod tests {
         }
     }
 
-    /// Twice as far from the stress-free state the levers of these arms are gone.
+    /// Twice as far from the stress-free state, the levers of these arms vanish.
     #[test]
     fn a_state_is_found_before_places_without_a_load() {
         let branch = branch(0.4, 2.0, Arms::reciprocal(-1.0, -1.0));
@@ -304,7 +308,7 @@ mod tests {
         }
     }
 
-    /// Found at random: with such arms the friction of the floor lifts more than it lets down.
+    /// Found by a random search: with such arms the friction of the floor lifts more than it lowers.
     #[test]
     fn where_no_load_balances_the_branch_ends() {
         let arms = Arms {

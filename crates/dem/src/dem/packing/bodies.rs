@@ -1,4 +1,4 @@
-//! The cylinders or spheres of a packing, its walls, and one step of them all.
+//! The cylinders or spheres of a packing, its walls, and one step for all of them.
 
 use super::pairs::PairList;
 use super::skin::Skin;
@@ -9,15 +9,15 @@ use crate::dem::scene::{Body, Load};
 use crate::dem::wall::PlaneWall;
 use crate::model::{ContactConvention, Stack};
 
-/// Largest distance of two surfaces in a list.
+/// Largest gap between two surfaces in a neighbour list.
 const SKIN: f64 = 0.5;
 
-/// The properties that all bodies and contacts of a packing share.
+/// The properties shared by all bodies and contacts of a packing.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Material {
     /// Contact law.
     pub law: SpringDashpot<f64>,
-    /// Friction coefficient between cylinders, or spheres.
+    /// Friction coefficient between cylinders or spheres.
     pub cylinder_friction: f64,
     /// Moment of inertia of a cylinder, or sphere, in m r².
     pub moment_of_inertia: f64,
@@ -34,11 +34,11 @@ impl Material {
     }
 }
 
-/// Any number of cylinders, or spheres, of unit mass and radius between plane walls.
+/// Any number of cylinders or spheres of unit mass and radius, between plane walls.
 ///
-/// Sums over contacts are taken by ascending index of the bodies, so that a result depends only on the
-/// numbering. Steps are fastest if neighbours have similar numbers, as in a lattice numbered row by row; ten
-/// thousand cylinders numbered at random take a third longer.
+/// Contacts are summed in ascending order of the indices of their bodies, so that a result depends only on the
+/// numbering. Steps are fastest if neighbours have similar numbers, as in a lattice numbered row by row; ten thousand
+/// cylinders numbered at random take a third longer.
 #[derive(Debug, Clone)]
 pub struct Packing<G: Geometry<f64> = Plane> {
     /// Gravity, downwards, in k_n r/m.
@@ -49,13 +49,13 @@ pub struct Packing<G: Geometry<f64> = Plane> {
     pub(super) walls: Vec<PlaneWall>,
     pub(super) loads: Vec<Load<f64, G>>,
     pub(super) pairs: PairList<G>,
-    /// For each wall.
+    /// Contacts of each wall.
     pub(super) wall_contacts: Vec<Vec<WallContact<G>>>,
     skin: Skin<G>,
 }
 
 impl<G: Geometry<f64>> Packing<G> {
-    /// A packing without gravity, every contact stress free.
+    /// A packing without gravity, in which every contact is free of stress.
     pub fn new(
         cylinders: Vec<Body<f64, G>>,
         walls: Vec<PlaneWall>,
@@ -83,13 +83,13 @@ impl<G: Geometry<f64>> Packing<G> {
         &self.cylinders
     }
 
-    /// Force and torque on every body, as of the last evaluation of the forces.
+    /// Force and torque on every body, from the last evaluation of the forces.
     pub fn loads(&self) -> &[Load<f64, G>] {
         &self.loads
     }
 
-    /// Every body near a wall and the force of the wall on it, which may be zero, as of the last evaluation
-    /// of the forces.
+    /// Every body near a wall, with the force of the wall on it from the last evaluation of the forces, which may be
+    /// zero.
     pub fn wall_forces(&self, wall: usize) -> impl Iterator<Item = (usize, &ContactForce<f64, G>)> {
         let contacts = self.wall_contacts[wall].iter();
         contacts.map(|contact| (contact.cylinder as usize, &contact.force))

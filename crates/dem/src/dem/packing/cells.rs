@@ -1,4 +1,4 @@
-//! Cell list: neighbours by square cells, or cubes.
+//! Cell list: neighbour search with square or cubic cells.
 
 use crate::dem::geometry::Geometry;
 use std::marker::PhantomData;
@@ -7,7 +7,7 @@ use std::ops::RangeInclusive;
 /// Points sorted into cells, layer by layer and row by row; the plane is one layer. Empty cells take no memory, so that
 /// points may be anywhere.
 pub(super) struct CellList<G> {
-    /// Cell and index of every point, in this order.
+    /// Cell and index of every point, sorted.
     entries: Vec<(Cell, u32)>,
     edge: f64,
     geometry: PhantomData<G>,

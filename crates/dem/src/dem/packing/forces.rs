@@ -1,4 +1,4 @@
-//! Forces of all contacts.
+//! Evaluation of the forces of all contacts.
 
 use super::bodies::Packing;
 use crate::dem::contact::{Contact, ContactForce, ContactModel, Spring};

@@ -1,9 +1,8 @@
 //! Many equal cylinders in the plane, or spheres in space, between plane walls, at a cost proportional to their number.
 //!
 //! Contact law, leapfrog and order of every sum are those of [`Scene`](super::Scene), which visits every pair of
-//! bodies: for the same bodies the two give the same bits. A packing adds a Verlet list of the pairs that may
-//! touch, made from a cell list whenever something has moved by half of its skin. A new list costs as much as some
-//! ten steps.
+//! bodies: for the same bodies both give the same bits. A packing adds a Verlet list of the pairs that may touch,
+//! rebuilt from a cell list whenever a body has moved by half the skin. Rebuilding costs as much as some ten steps.
 
 mod bodies;
 mod cells;

@@ -5,8 +5,8 @@ use crate::dem::contact::Spring;
 use crate::dem::geometry::Geometry;
 use crate::dem::scene::Body;
 
-/// All pairs up to some distance, each once, grouped by their first body. The second one has the lower index.
-/// Both indices ascend, so that the order of sums over pairs depends on the indices alone.
+/// All pairs within some distance, each once, grouped by their first body, which has the higher index. Both indices
+/// ascend, so that the order of sums over pairs depends on the indices alone.
 #[derive(Debug, Clone)]
 pub(super) struct PairList<G: Geometry<f64>> {
     /// End of the pairs of each first body, where those of the next one begin.

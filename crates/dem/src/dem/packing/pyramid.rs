@@ -11,11 +11,11 @@ use std::time::Instant;
 /// Index of the floor among the walls of a pyramid.
 pub const PYRAMID_FLOOR: usize = 0;
 
-/// Steps between two calls of `wanted`: some tenths of a second for the largest pyramid.
+/// Steps between two calls of `wanted`, which take some tenths of a second for the largest pyramid.
 const STEPS_BETWEEN_QUESTIONS: u64 = 1 << 4;
 
 impl Packing {
-    /// `pyramid` before gravity acts: floor, left and right wall.
+    /// `pyramid` before gravity acts, with floor, left wall and right wall.
     pub fn pyramid(pyramid: &Pyramid) -> Self {
         let cylinders = pyramid.centres().into_iter();
         let wall = |facing, offset, friction| PlaneWall {

@@ -4,18 +4,17 @@ use crate::dem::geometry::{Geometry, Plane};
 use crate::dem::scene::Body;
 use crate::dem::wall::PlaneWall;
 
-/// A list of everything within a skin is complete until some body has moved by half of the skin since it was
-/// made.
+/// A list of everything within a skin is complete until a body has moved by half the skin since the list was built.
 ///
-/// The largest speeds are summed up step by step, which costs no memory access of its own. Only when their sum reaches
-/// the limit are the distances themselves computed: vibrations need no new list.
+/// The largest speeds are summed step by step, which needs no memory access of its own. Only when their sum reaches
+/// the limit are the actual distances computed, so vibrations do not require a new list.
 #[derive(Debug, Clone)]
 pub(super) struct Skin<G: Geometry<f64> = Plane> {
-    /// Half of the skin, less a margin for rounding.
+    /// Half of the skin, minus a margin for rounding.
     limit: f64,
     /// Upper bound of the distance that any body has moved.
     travelled: f64,
-    /// The part of it that is due to walls.
+    /// Upper bound of the distance that any wall has moved.
     wall_travel: f64,
     /// Positions of the bodies when the list was made.
     anchors: Vec<Body<f64, G>>,
@@ -32,8 +31,8 @@ impl<G: Geometry<f64>> Skin<G> {
         }
     }
 
-    /// Counts a step at the end of which the square speed of the bodies is at most `fastest_square`. Returns
-    /// whether lists must be made anew, and then starts over at the present positions.
+    /// Counts a step at whose end the squared speed of the bodies is at most `fastest_square`. Returns whether lists
+    /// must be rebuilt, and if so starts over at the present positions.
     pub fn is_used_up(
         &mut self,
         fastest_square: f64,
@@ -77,7 +76,7 @@ mod tests {
             cylinders[1].position[0] = 5.0 + f64::from(step % 2) * speed * time_step;
             assert!(!skin.is_used_up(speed * speed, &[], time_step, &cylinders));
         }
-        // Half of the skin is 25 steps.
+        // Half the skin corresponds to 25 steps.
         let start = cylinders[1].position[0];
         let steps = (1..).find(|step| {
             cylinders[1].position[0] = start + f64::from(*step) * speed * time_step;

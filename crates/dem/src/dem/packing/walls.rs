@@ -5,7 +5,7 @@ use crate::dem::geometry::Geometry;
 use crate::dem::scene::Body;
 use crate::dem::wall::PlaneWall;
 
-/// A cylinder, or sphere, beside a wall.
+/// A cylinder or sphere near a wall.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct WallContact<G: Geometry<f64>> {
     pub cylinder: u32,
@@ -13,8 +13,8 @@ pub(super) struct WallContact<G: Geometry<f64>> {
     pub force: ContactForce<f64, G>,
 }
 
-/// The bodies whose surfaces are less than `gap` away from `wall`, by ascending index. Those in `known`
-/// keep spring and force.
+/// Returns the bodies whose surfaces are less than `gap` from `wall`, by ascending index. Those in `known` keep spring
+/// and force.
 pub(super) fn beside_wall<G: Geometry<f64>>(
     wall: &PlaneWall,
     cylinders: &[Body<f64, G>],

@@ -56,13 +56,13 @@ impl Default for Law {
 }
 
 impl Law {
-    /// The paper's: linear springs, walls as stiff as pairs.
+    /// The paper's law: linear springs, walls as stiff as pairs.
     pub const LINEAR: Self = Self::of_power(Power::Linear);
 
-    /// Hertz's normal force with a tangential spring that remembers the displacement, on a flat floor.
+    /// Hertz's normal force on a flat floor, with a tangential spring that remembers the displacement.
     pub const HERTZ: Self = Self::of_power(Power::Hertz);
 
-    /// The law of a power whose springs remember the displacement, on a flat floor.
+    /// The law of this power on a flat floor, with springs that remember the displacement.
     pub const fn of_power(power: Power) -> Self {
         Self {
             power,
@@ -77,14 +77,14 @@ impl Law {
         }
     }
 
-    /// Whether it is the paper's in every respect.
+    /// Whether the law is the paper's in every respect.
     pub fn is_linear(&self) -> bool {
         *self == Self::LINEAR
     }
 
-    /// Whether gravity must be applied slowly: a force is remembered while the stiffness with which it grew depends on the
-    /// overlap, what is remembered is reduced whenever the overlap shrinks, or oscillations at small overlaps hardly die
-    /// away.
+    /// Whether gravity must be applied slowly. This is so if springs remember a force whose stiffness depends on the
+    /// overlap, if what they remember is reduced whenever the overlap shrinks, or if oscillations at small overlaps
+    /// hardly die away.
     pub fn needs_slow_ramp(&self) -> bool {
         let steepens = self.power != Power::Linear;
         let stiffens = steepens || self.tangential_stiffening != TangentialStiffening::None;
@@ -92,7 +92,7 @@ impl Law {
         self.history.is_rescaled() || self.history.keeps_force() && stiffens || dies_slowly
     }
 
-    /// Every value in its range, or the first one that is not.
+    /// Checks every value; the error names the first that is out of range.
     pub(in crate::model) fn validate(&self) -> Result<(), InvalidValue> {
         let (least, most) = FLOOR_RATIO_RANGE;
         within("convention.law.floor_ratio", self.floor_ratio, least, most)?;
@@ -103,7 +103,8 @@ impl Law {
     }
 }
 
-/// The law as it is named beside numbers; nothing but its power is named where the rest is as usual.
+/// Writes the law as it appears beside numbers: power, history and floor ratio, and the other values where they are
+/// not the usual ones.
 impl fmt::Display for Law {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         let name = match self.power {
@@ -237,7 +238,7 @@ mod tests {
         for history in [DisplacementRescaled, ForceRescaled] {
             assert!(slow(Law::LINEAR, history), "{history}");
         }
-        // A force that is remembered, where the stiffness depends on the overlap.
+        // A remembered force, where the stiffness depends on the overlap.
         assert!(slow(Law::HERTZ, Force) && slow(stiffening, Force) && !slow(Law::LINEAR, Force));
         assert!(!slow(Law::HERTZ, Displacement) && !slow(stiffening, Displacement));
         let viscoelastic = |law| Law {

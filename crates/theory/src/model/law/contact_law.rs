@@ -10,7 +10,7 @@ use std::ops::Mul;
 /// The largest overlap for which time steps are stable, in r: no path of equilibria comes near to it.
 const LARGEST_OVERLAP: f64 = 1.0;
 
-/// The factor 2/(2 − δ) of tangential stiffness, or 1.
+/// The factor 2/(2 − δ) on the tangential stiffness, or 1.
 fn stiffening(stiffens: bool, overlap: f64) -> f64 {
     match stiffens {
         true => 2.0 / (2.0 - overlap),
@@ -25,7 +25,7 @@ impl Law {
         ContactLaw::new(self, 1.0, stiffness_ratio, restitution, stiffens)
     }
 
-    /// The contact of a cylinder and a wall, κ being the stiffness ratio of pairs.
+    /// The contact of a cylinder and a wall, where κ is the stiffness ratio of pairs.
     pub(in crate::model) fn of_walls(&self, stiffness_ratio: f64, restitution: f64) -> ContactLaw {
         let stiffness_ratio = self.floor_kappa.unwrap_or(stiffness_ratio);
         let stiffens = self.tangential_stiffening == TangentialStiffening::Every;
@@ -38,7 +38,7 @@ impl Law {
         )
     }
 
-    /// The lowest ratio k_n/k_t of any contact at any overlap, κ being that of pairs.
+    /// The lowest ratio k_n/k_t of any contact at any overlap, where κ is the ratio of pairs.
     pub(in crate::model) fn lowest_stiffness_ratio(&self, stiffness_ratio: f64) -> f64 {
         let lowest = self
             .floor_kappa
@@ -48,8 +48,8 @@ impl Law {
     }
 }
 
-/// The law of one kind of contact. Its coefficients are those at an overlap of r without stiffening, under the names by
-/// which decks read them; those of the linear law hold at any overlap.
+/// The law of one kind of contact. Its coefficients are those at an overlap of r, without stiffening, under the names
+/// that decks use; those of the linear law hold at any overlap.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct ContactLaw<N = f64> {
     /// K.
@@ -77,7 +77,7 @@ pub struct ContactLaw<N = f64> {
 /// Stiffness and damping of a contact at one overlap.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ContactCoefficients<N = f64> {
-    /// N/δ of the spring: k_n of the linear law.
+    /// N/δ of the spring, which is k_n in the linear law.
     pub secant: N,
     /// k_t.
     pub tangential_stiffness: N,
@@ -88,7 +88,7 @@ pub struct ContactCoefficients<N = f64> {
 }
 
 impl<N> ContactLaw<N> {
-    /// The same coefficients as other numbers.
+    /// Converts every coefficient with `number`.
     pub fn map<M>(self, mut number: impl FnMut(N) -> M) -> ContactLaw<M> {
         ContactLaw {
             normal_stiffness: number(self.normal_stiffness),
@@ -104,7 +104,7 @@ impl<N> ContactLaw<N> {
 }
 
 impl<N: Copy + Mul<Output = N>> ContactLaw<N> {
-    /// The coefficients at an overlap; `root` is the square root, and `stiffening` is 2/(2 − δ) at that overlap.
+    /// Returns the coefficients at an overlap; `root` computes the square root, and `stiffening` computes 2/(2 − δ).
     #[inline(always)]
     pub fn coefficients(
         &self,
@@ -131,7 +131,7 @@ impl<N: Copy + Mul<Output = N>> ContactLaw<N> {
         if self.stiffens {
             let factor = stiffening(overlap);
             own.tangential_stiffness = own.tangential_stiffness * factor;
-            // The surfaces count as moving so many times as far, for the dashpot as for the spring.
+            // The surface displacement is multiplied by this factor, for the dashpot as for the spring.
             own.damping_tangential = own.damping_tangential * factor;
         }
         own
@@ -139,7 +139,7 @@ impl<N: Copy + Mul<Output = N>> ContactLaw<N> {
 }
 
 impl ContactLaw {
-    /// A contact whose normal force is K δᵖ, of stiffness ratio κ and restitution e_r.
+    /// A contact with the normal force K δᵖ, where K is `scale`, the stiffness ratio κ and the restitution e_r.
     fn new(law: &Law, scale: f64, stiffness_ratio: f64, restitution: f64, stiffens: bool) -> Self {
         let power = law.power.value();
         let stiffness = power * scale;
@@ -162,18 +162,18 @@ impl ContactLaw {
         self.stiffness(LARGEST_OVERLAP)
     }
 
-    /// Stiffness and damping at an overlap. Of a negative overlap, which trial steps of the theory meet, they are those
-    /// of the same overlap with the other sign.
+    /// Stiffness and damping at an overlap. A negative overlap, which occurs in trial steps of the theory, counts as
+    /// its absolute value.
     pub fn at(&self, overlap: f64) -> ContactCoefficients {
         self.coefficients(overlap.abs(), f64::sqrt, |overlap| 2.0 / (2.0 - overlap))
     }
 
-    /// The normal force at an overlap, which has the sign of the overlap.
+    /// The normal force at an overlap, with the sign of the overlap.
     pub fn force(&self, overlap: f64) -> f64 {
         self.at(overlap).secant * overlap
     }
 
-    /// The overlap at a normal force, which has the sign of the force.
+    /// The overlap at a normal force, with the sign of the force.
     pub fn overlap(&self, force: f64) -> f64 {
         let ratio = force / self.normal_stiffness;
         match self.power {
@@ -187,7 +187,7 @@ impl ContactLaw {
         self.power.value() * self.at(overlap).secant
     }
 
-    /// k_t at an overlap without stiffening, which it has to first order in small overlaps.
+    /// k_t at an overlap without stiffening, which is k_t to first order in small overlaps.
     pub(crate) fn unstiffened(&self, overlap: f64) -> f64 {
         let plain = Self {
             stiffens: false,
@@ -215,7 +215,7 @@ mod tests {
 
     #[test]
     fn force_overlap_and_stiffness_belong_together_at_every_power() {
-        // Each side has at most five operations, a power among them.
+        // Each side takes at most five operations, one of them a power.
         const ROUNDED: f64 = 8.0 * f64::EPSILON;
         for power in Power::ALL {
             let law = Law {
@@ -250,7 +250,7 @@ mod tests {
                 let log = |overlap: f64| libm::log(law.at(overlap).tangential_stiffness);
                 let (overlap, width) = (0.2, 1e-5);
                 let slope = (log(overlap + width) - log(overlap - width)) / (2.0 * width);
-                // The difference is off by width²/6 times the third derivative, at most 250.
+                // The error of the difference is width²/6 times the third derivative, which is at most 250.
                 assert!((law.tangential_steepening(overlap) - slope).abs() < 1e-8);
             }
         }

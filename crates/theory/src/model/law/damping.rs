@@ -18,7 +18,7 @@ impl DampingGrowth {
     /// Every growth.
     pub const ALL: [Self; 2] = [Self::ConstantRatio, Self::Viscoelastic];
 
-    /// The word of case files.
+    /// The name in case files.
     pub const fn as_str(self) -> &'static str {
         match self {
             Self::ConstantRatio => "constant-ratio",
@@ -31,7 +31,7 @@ impl DampingGrowth {
     }
 }
 
-/// η of a stiffness, at a damping ratio that gives a free collision this restitution.
+/// Returns η for a stiffness, at the damping ratio that gives a free collision this restitution.
 pub(super) fn damping(stiffness: f64, restitution: f64, power: f64) -> f64 {
     let log = libm::log(restitution);
     let pi = std::f64::consts::PI;
@@ -61,7 +61,7 @@ mod tests {
         assert_eq!(linear(1.0).damping_normal.to_bits(), 0);
     }
 
-    /// Restitution of a unit mass that meets the spring at `speed`, by Runge's and Kutta's method in so many steps.
+    /// Restitution of a unit mass that meets the spring at `speed`, by the Runge–Kutta method with time step `step`.
     fn restitution(law: &ContactLaw, speed: f64, step: f64) -> f64 {
         let rate = |[overlap, speed]: [f64; 2]| {
             let own = law.at(overlap.max(0.0));

@@ -1,10 +1,10 @@
-//! The power of the overlap with which a normal force grows.
+//! Exponent of the normal force.
 
 use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::ops::Mul;
 
-/// Exponent p of the normal force, in quarters: powers of an overlap then take square roots alone.
+/// Exponent p of the normal force, in quarters, so that powers of an overlap take square roots alone.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(try_from = "f64", into = "f64")]
 pub enum Power {
@@ -41,7 +41,7 @@ impl Power {
         }
     }
 
-    /// δᵖ⁻¹ of an overlap δ; `None` where it is 1 at any overlap.
+    /// Returns δᵖ⁻¹ for an overlap δ; `None` for p = 1, where it is 1 at any overlap.
     #[inline(always)]
     pub(crate) fn steepened<N: Copy + Mul<Output = N>>(
         self,

@@ -37,7 +37,7 @@ impl TangentialHistory {
         matches!(self, Self::DisplacementRescaled | Self::ForceRescaled)
     }
 
-    /// The word of case files and options.
+    /// The name in case files and options.
     pub const fn as_str(self) -> &'static str {
         match self {
             Self::Displacement => "displacement",
@@ -71,7 +71,7 @@ impl TangentialStiffening {
     /// All of them.
     pub const ALL: [Self; 3] = [Self::None, Self::Pairs, Self::Every];
 
-    /// The word of case files and options.
+    /// The name in case files and options.
     pub const fn as_str(self) -> &'static str {
         match self {
             Self::None => "none",

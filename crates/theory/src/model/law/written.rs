@@ -1,4 +1,4 @@
-//! A law as case files spell it.
+//! The contact law as a case file spells it.
 
 use super::damping::DampingGrowth;
 use super::power::Power;

@@ -10,11 +10,12 @@ use gauss_quad::{FiniteAboveNegOneF64, GaussJacobi};
 use std::f64::consts::PI;
 use std::num::NonZeroUsize;
 
-/// Without its singular factors at the ends the integrand of a duration is analytic within an ellipse whose semi-axes add
-/// up to more than 5.8 half lengths, so that the error of n nodes is below 5.8⁻²ⁿ: 12 nodes leave nothing but round-off.
+/// Without its singular factors at the ends, the integrand of a duration is analytic within an ellipse whose semi-axes
+/// add up to more than 5.8 half lengths. The error of n nodes is therefore below 5.8⁻²ⁿ, and 12 nodes leave only
+/// round-off.
 const NODES: NonZeroUsize = NonZeroUsize::new(12).expect("12 is not zero");
 
-/// The oscillator of an impact; a phase is its frequency times τ.
+/// The oscillator of an impact. A phase is its frequency times τ.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Oscillator {
     law: ContactLaw,
@@ -22,14 +23,14 @@ pub(super) struct Oscillator {
     /// Speed of approach.
     speed: f64,
     tensile_force: TensileForce,
-    /// Decay in τ.
+    /// Decay rate in τ.
     decay: f64,
-    /// Angular frequency.
+    /// Angular frequency in τ.
     frequency: f64,
 }
 
 impl Oscillator {
-    /// That of `impact`; its frequency is not a number if it is damped more than critically.
+    /// The oscillator of `impact`; its frequency is NaN if it is damped more than critically.
     pub(super) fn of(impact: &Impact) -> Self {
         let law = impact.law();
         let (power, mass) = (law.power.value(), impact.target.effective_mass());
@@ -45,7 +46,7 @@ impl Oscillator {
         }
     }
 
-    /// Every number of the impact.
+    /// Computes every number of the impact.
     pub(super) fn impact(&self) -> NormalImpact {
         let release = self.force_changes_sign();
         let (depth, fastest) = (self.overlap(release), -self.velocity(release));
@@ -103,7 +104,7 @@ impl Oscillator {
         self.speed * self.left(phase) * (libm::cos(phase) - slowing)
     }
 
-    /// δ at a phase, 0 where rounding takes it below.
+    /// δ at a phase; 0 where rounding would make it negative.
     fn overlap(&self, phase: f64) -> f64 {
         let s = self.speed / self.frequency * self.left(phase) * libm::sin(phase);
         let s = if s < 0.0 { 0.0 } else { s };
@@ -124,7 +125,7 @@ impl Oscillator {
         })
     }
 
-    /// The time from where the force changes its sign to the phase π.
+    /// The time from the change of sign of the force to the phase π.
     fn time_of_pulling(&self) -> f64 {
         let length = self.phase_of_pulling();
         if length == 0.0 {
@@ -136,8 +137,8 @@ impl Oscillator {
         })
     }
 
-    /// ∫ 2/(p+1) s^(−q) dτ over phases of so much `length`, x being −1 and 1 at their ends. `at` gives the phase and the
-    /// sine of it without the factors (1 + x) and (1 − x), whose powers are the `weights`.
+    /// ∫ 2/(p+1) s^(−q) dτ over a `length` of phases, with x running from −1 to 1. `at` returns the phase at x, and
+    /// its sine without the factors (1 + x) and (1 − x), whose powers are the `weights`.
     fn time(&self, length: f64, weights: [f64; 2], at: impl Fn(f64) -> (f64, f64)) -> f64 {
         let [lower, upper] = weights.map(FiniteAboveNegOneF64::new);
         let (Some(lower), Some(upper)) = (lower, upper) else {

@@ -1,7 +1,7 @@
-//! Impacts by integration of the equations of motion: with any damping, and with surfaces that slide on one another from
-//! beginning to end, where the tangential force is μ |N| whatever tangential spring and damping are.
+//! Impacts by integration of the equations of motion: with any damping, and with surfaces that slide on each other
+//! from beginning to end, where the tangential force is μ |N| whatever the tangential spring and damping.
 //!
-//! The normal motion of a pair feels the turn of its line of centres; so both motions are integrated together
+//! The normal motion of a pair depends on the rotation of its line of centres, so both motions are integrated together
 //! (docs/theory.md, section 12.3).
 
 use super::{NormalImpact, slope_without_force};
@@ -10,20 +10,20 @@ use crate::theory::bracketed_root;
 use differential_equations::prelude::{ExplicitRungeKutta, IVP, ODE};
 
 const TOLERANCE: f64 = 1e-13;
-/// Most strides in which an event is looked for: an undamped impact takes some twelve.
+/// Maximum number of strides in the search for an event; an undamped impact takes about twelve.
 const MOST_STRIDES: usize = 1000;
 
-/// What friction has changed after an impact with sliding.
+/// The effect of friction after an impact with sliding.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SlidingChange {
-    /// Of the tangential velocity, in r √(k_n/m): of the cylinder along the floor, or of one cylinder of a pair relative to
-    /// the other, which is their relative angular momentum over the distance 2 at which they touch.
+    /// Change of the tangential velocity, in r √(k_n/m): of the cylinder along the floor, or of one cylinder of a pair
+    /// relative to the other, that is their relative angular momentum over the distance 2 at which they touch.
     pub tangential_velocity: f64,
-    /// Of the spin of each cylinder, in √(k_n/m).
+    /// Change of the spin of each cylinder, in √(k_n/m).
     pub spin: f64,
 }
 
-/// The normal motion of `impact`; `None` if the integration fails.
+/// Returns the normal motion of `impact`; `None` if the integration fails.
 pub fn integrated_impact(impact: &Impact) -> Option<NormalImpact> {
     let equations = Equations {
         friction: 0.0,
@@ -56,11 +56,12 @@ pub fn integrated_impact(impact: &Impact) -> Option<NormalImpact> {
     })
 }
 
-/// The change by `impact`, in which the surfaces must slide all the time; `None` if the integration fails.
+/// Returns the change that friction makes in `impact`, during which the surfaces must slide all the time; `None` if
+/// the integration fails.
 pub fn sliding_change(impact: &Impact) -> Option<SlidingChange> {
     let equations = Equations::of(impact);
     let deepest = equations.next(equations.touch(), |state| state.rate)?;
-    // |N| has a kink there: the integration starts anew.
+    // |N| has a kink here, so the integration restarts.
     let release = equations.next(deepest, |state| equations.force(state))?;
     let end = match equations.never_pulls {
         true => release,
@@ -72,14 +73,14 @@ pub fn sliding_change(impact: &Impact) -> Option<SlidingChange> {
     })
 }
 
-/// One moment.
+/// The state at one moment.
 #[derive(Debug, Clone, Copy)]
 struct State {
     time: f64,
     overlap: f64,
     /// dδ/dt.
     rate: f64,
-    /// Distance times relative tangential velocity.
+    /// Distance times relative tangential velocity; at the floor, whose distance counts as 1, a velocity.
     momentum: f64,
     /// Change of the spin.
     spin: f64,
@@ -131,7 +132,7 @@ impl Equations {
         }
     }
 
-    /// That of a pair, or of the floor, on which the momentum is a velocity.
+    /// Distance of a touching pair, or 1 for the floor, where the momentum is a velocity.
     fn touching_distance(&self) -> f64 {
         match self.target {
             ImpactTarget::Pair => 2.0,
@@ -139,13 +140,13 @@ impl Equations {
         }
     }
 
-    /// Normal force, negative where it would pull.
+    /// The force by the law, negative where it would pull.
     fn force(&self, state: &State) -> f64 {
         let own = self.law.at(state.overlap);
         own.secant * state.overlap + own.damping_normal * state.rate
     }
 
-    /// The state in which `event`, positive before, is 0.
+    /// Returns the next state in which `event`, positive before, is 0.
     fn next(&self, from: State, event: impl Fn(&State) -> f64) -> Option<State> {
         let mut last = from;
         for _ in 0..MOST_STRIDES {
@@ -208,7 +209,7 @@ impl ODE<f64, [f64; 4]> for Equations {
         };
         let friction = self.friction * normal.abs();
         let arm = 1.0 + self.torque_arm * overlap;
-        // The floor is a body of infinite radius: nothing turns.
+        // The floor is a body of infinite radius: the line of contact does not turn.
         let (distance, turning) = match self.target {
             ImpactTarget::Floor => (1.0, 0.0),
             ImpactTarget::Pair => {

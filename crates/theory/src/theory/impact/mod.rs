@@ -8,8 +8,8 @@ pub use integrated::{SlidingChange, integrated_impact, sliding_change};
 use crate::model::{ContactLaw, DampingGrowth, Impact};
 use closed_form::Oscillator;
 
-/// The relative motion of two bodies along their normal, from the moment at which they touch. What the law does not say,
-/// such as the motion through a contact that is damped more than critically, is not a number.
+/// The relative motion of two bodies along their normal, from the moment at which they touch. Values that the law does
+/// not determine are NaN, such as those of a contact that is damped more than critically.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct NormalImpact {
     /// The largest overlap, in r.
@@ -18,7 +18,7 @@ pub struct NormalImpact {
     pub restitution: f64,
     /// Time from the touch until the force is 0 for good, in √(m/k_n).
     pub force_duration: f64,
-    /// Time from the touch until the bodies overlap no more. Where they never pull, they fly apart freely at its end.
+    /// Time from the touch until the bodies no longer overlap. Bodies that never pull separate freely at its end.
     pub duration: f64,
     /// ∫ |N| dt over the effective mass, in r √(k_n/m).
     pub total_impulse: f64,
@@ -37,13 +37,13 @@ impl NormalImpact {
     };
 }
 
-/// Whether the normal motion of `impact` is known in closed form: its damping ratio does not depend on the overlap.
+/// Whether the normal motion of `impact` has a closed form: its damping ratio does not depend on the overlap.
 pub fn has_closed_form(impact: &Impact) -> bool {
     let law = impact.law();
     law.damping == DampingGrowth::ConstantRatio || law.damping_normal == 0.0
 }
 
-/// The normal motion of `impact`, in closed form where there is one.
+/// Returns the normal motion of `impact`, in closed form where there is one.
 pub fn normal_impact(impact: &Impact) -> NormalImpact {
     match has_closed_form(impact) {
         true => Oscillator::of(impact).impact(),
@@ -51,7 +51,7 @@ pub fn normal_impact(impact: &Impact) -> NormalImpact {
     }
 }
 
-/// The power of the overlap with which damping grows.
+/// Returns the power of the overlap with which damping grows.
 pub fn damping_exponent(law: &ContactLaw) -> f64 {
     let steepening = law.power.value() - 1.0;
     match law.damping {
@@ -60,7 +60,8 @@ pub fn damping_exponent(law: &ContactLaw) -> f64 {
     }
 }
 
-/// |dN/dt| of a contact of this law whose force is 0 at this overlap, while the bodies part at this speed.
+/// Returns |dN/dt| of a contact with this law when its force is 0 at this overlap, while the bodies separate at this
+/// speed.
 ///
 /// There K δᵖ = c δᵃ |dδ/dt|, and the acceleration is 0.
 fn slope_without_force(law: &ContactLaw, overlap: f64, speed: f64) -> f64 {

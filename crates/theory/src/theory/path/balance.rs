@@ -4,20 +4,21 @@
 //!
 //! b R_c = e R_f,  −a sin ψ + b cos ψ + e = 0,  n (a cos ψ + b sin ψ) = L,
 //!
-//! where n bodies carry cylinder 1 (2 cylinders, or 3 to 5 spheres) and L is the load on it: its growing weight along the
-//! gravity ramp, f + m g under the wall. The springs accumulate ρ dψ − R̃_c dθ and dx₂ + R̃_f dθ, with the kinematic arms R̃
-//! of the same form. Differentiated with respect to ψ this is a linear 3×3 system for (ρ′, θ′, L′), regular also
-//! where L has a maximum (docs/theory.md, Eqs. 10, 15 and 36 to 40).
+//! where n bodies carry cylinder 1 (2 cylinders, or 3 to 5 spheres) and L is the load on it: its growing weight along
+//! the gravity ramp, f + m g under the wall. The springs accumulate ρ dψ − R̃_c dθ and dx₂ + R̃_f dθ, with the
+//! kinematic arms R̃ of the same form. Differentiated with respect to ψ, this is a linear 3×3 system for (ρ′, θ′, L′),
+//! which is regular also where L has a maximum (docs/theory.md, Eqs. 10, 15 and 36 to 40).
 //!
-//! A spring that remembers its displacement gains force as its overlap grows: b′ and e′ have the further parts
-//! b (ln k_c)′ and e (ln k_f)′ then (Eq. 81).
+//! A spring that remembers its displacement gains force as its overlap grows: b′ and e′ then have the additional terms
+//! b (ln k_c)′ and e (ln k_f)′ (Eq. 81).
 //!
-//! A spring that nothing turns is a vector q = b t + p n, which grows along the present t alone. As n and t turn by dψ,
-//! b gains p dψ and p loses b dψ, and a + p takes the place of a in both balances of forces (Eqs. 109 to 111).
+//! A spring that does not turn with its contact is a vector q = b t + p n, which grows along the present t alone. When
+//! n and t turn by dψ, b gains p dψ and p loses b dψ, and a + p replaces a in both balances of forces (Eqs. 109 to
+//! 111).
 //!
-//! Contact 2–3 can be ignored (c = 0, the paper's assumption) or followed. Where it is closed, y < 0, it
-//! carries c = N(−2y/x₀), and nothing tangential: by mirror symmetry its surfaces do not move against each
-//! other. The horizontal balance becomes −a sin ψ + b cos ψ + e − c = 0 and the torques stay as they are. A sphere has
+//! Contact 2–3 can be ignored (c = 0, the paper's assumption) or followed. Where it is closed, y < 0, it carries the
+//! normal force c = N(−2y/x₀) and no tangential force: by mirror symmetry its surfaces do not move relative to each
+//! other. The horizontal balance becomes −a sin ψ + b cos ψ + e − c = 0, and the torques do not change. A sphere has
 //! two such neighbours, which press it outwards by 2c sin(π/n) (Eqs. 98 and 99).
 
 use super::super::events::{PathPoint, half_angle_tangent, outward_displacement};
@@ -25,7 +26,7 @@ use super::super::root::bracketed_root;
 use crate::model::{Arms, ContactArms, ContactConvention, ContactLaw, Ring, Stack};
 use nalgebra::{Matrix3, Matrix4, Vector3, Vector4};
 
-/// The state that is integrated.
+/// The integrated state.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct State {
     /// ψ − ψ₀.
@@ -40,17 +41,18 @@ pub(super) struct State {
     pub(super) pair_shear: f64,
     /// e, tangential force of the floor contact.
     pub(super) floor_shear: f64,
-    /// p, part of the force of the tangential spring 1–2 along the normal; 0 of a spring that turns with its contact.
+    /// p, component of the force of the tangential spring 1–2 along the normal; 0 for a spring that turns with its
+    /// contact.
     pub(super) pair_lift: f64,
 }
 
-/// Numbers of a state if springs turn with their contacts.
+/// Size of a state if springs turn with their contacts.
 pub(super) const TURNING: usize = 6;
-/// Numbers of a state if nothing turns the springs.
+/// Size of a state if springs do not turn.
 pub(super) const FIXED: usize = 7;
 
 impl State {
-    /// The state of these numbers, in the order of the fields; those that are left out are 0.
+    /// Builds a state from numbers in the order of the fields; missing ones are 0.
     pub(super) fn from_array<const N: usize>(numbers: [f64; N]) -> Self {
         let number = |index: usize| numbers.get(index).copied().unwrap_or(0.0);
         Self {
@@ -64,7 +66,7 @@ impl State {
         }
     }
 
-    /// The first numbers of the state, followed by 0 beyond its last one.
+    /// Returns the first N numbers of the state, padded with 0.
     pub(super) fn to_array<const N: usize>(self) -> [f64; N] {
         let numbers: [f64; FIXED] = [
             self.turned,
@@ -78,7 +80,7 @@ impl State {
         std::array::from_fn(|index| numbers.get(index).copied().unwrap_or(0.0))
     }
 
-    /// A state that is no equilibrium.
+    /// A state of NaN, for where there is no equilibrium.
     pub(super) fn lost() -> Self {
         Self::from_array([f64::NAN; FIXED])
     }
@@ -116,21 +118,21 @@ impl Leg {
     }
 }
 
-/// What the parameter of a sliding branch is.
+/// The parameter of a sliding branch.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Progress {
     /// The logarithm of the load L.
     Load,
-    /// The direction u of the state, which is given.
+    /// The direction u of the state, at its given value.
     Direction(f64),
 }
 
 /// Treatment of the contact between the bottom cylinders.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum BottomContact {
-    /// It carries nothing, c = 0, even where the cylinders would overlap.
+    /// The contact carries nothing, c = 0, even where the cylinders would overlap.
     Ignored,
-    /// It closes where y < 0 and opens where y > 0.
+    /// The contact closes where y < 0 and opens where y > 0.
     Followed,
 }
 
@@ -153,12 +155,12 @@ pub(super) struct Contacts {
     pub(super) arms: Arms,
     pub(super) epsilon: f64,
     pub(super) bottom: BottomContact,
-    /// Turn of the tangential spring 1–2 relative to its contact, per turn of the contact: 0 if it turns with the contact,
-    /// 1 if nothing turns it.
+    /// Rotation of the tangential spring 1–2 relative to its contact, per rotation of the contact (up to sign): 0 if
+    /// the spring turns with the contact, 1 if it does not turn.
     pub(super) left_behind: f64,
 }
 
-/// One of the two contacts with friction, in one state.
+/// One of the two frictional contacts, in one state.
 struct Pressed {
     /// Torque arm R.
     lever: f64,
@@ -168,9 +170,10 @@ struct Pressed {
     stiffness: f64,
     /// k_t.
     tangential: f64,
-    /// Relative change of the force of the tangential spring with the overlap while the surfaces do not move.
+    /// Relative change of the force of the tangential spring per change of the overlap, while the surfaces do not
+    /// move.
     memory_rate: f64,
-    /// The same of the tangential force.
+    /// Absolute change of the tangential force per change of the overlap, while the surfaces do not move.
     memory: f64,
 }
 
@@ -212,7 +215,7 @@ impl Contacts {
         }
     }
 
-    /// The same of bodies that begin in another ring than the one in which they just touch each other.
+    /// Replaces the ring: the bodies start in one other than that in which they just touch.
     pub(super) fn in_ring(self, ring: Ring) -> Self {
         Self { ring, ..self }
     }
@@ -222,8 +225,9 @@ impl Contacts {
         self.left_behind == 0.0
     }
 
-    /// The beginning of the path, at `fraction` of the angle turned under gravity: on the ray along which all lengths are
-    /// proportional to that angle, and all forces to its power p (docs/theory.md, Eqs. 82, 83 and 104).
+    /// Returns the beginning of the path, at `fraction` of the angle turned under gravity. It lies on the ray along
+    /// which all lengths are proportional to that angle, and all forces to its power p (docs/theory.md, Eqs. 82, 83
+    /// and 104).
     pub(super) fn beginning(&self, fraction: f64) -> Beginning {
         let ray = Ray::of(self);
         let [upper_stretch, _] = ray.stretch(self);
@@ -245,7 +249,7 @@ impl Contacts {
         }
     }
 
-    /// p = −∫b dψ where b has grown with the power p of the angle turned.
+    /// p = −∫b dψ, where b has grown with the power p of the angle turned (the exponent of the law).
     fn lift_on_ray(&self, shear: f64, turned: f64) -> f64 {
         -self.left_behind * shear * turned / (1.0 + self.law.power.value())
     }
@@ -261,7 +265,7 @@ impl Contacts {
         }
     }
 
-    /// The derivative if pair and floor `unload` as given, and whether their overlaps grow along it.
+    /// The derivative if pair and floor `unload` as given, and whether each overlap grows along it.
     fn slope(
         &self,
         state: &State,
@@ -302,8 +306,8 @@ impl Contacts {
             -ring.bodies * upper.tangential * upper.radius * sin,
             -1.0,
         );
-        // What turns with the contact changes the balances by turning: of the force of a spring that turns b, as it has no
-        // part p along the normal.
+        // Forces that turn with the contact change the balances by turning. For a spring that turns this is b, as it
+        // has no component p along the normal.
         let turning_shear = b * (1.0 - left_behind);
         let known = Vector3::new(
             (upper.tangential * upper.lever - lower.tangential * lower.lever * cos) * distance
@@ -335,7 +339,7 @@ impl Contacts {
         (slope, [distance_slope <= 0.0, floor_overlap_slope >= 0.0])
     }
 
-    /// |q|/a, the friction that the contact 1–2 needs; of a spring that turns, b/a.
+    /// |q|/a, the friction that the contact 1–2 needs; b/a for a spring that turns.
     fn pair_friction(&self, state: &State) -> f64 {
         let shear = match self.springs_turn() {
             true => state.pair_shear,
@@ -356,7 +360,7 @@ impl Contacts {
         beyond / (beyond + self.ring.neighbour_overlap(state.outward(&self.ring)))
     }
 
-    /// The state in which a floor slides that has slid from the start, at T = μ_c + `beyond`, from what events need of it.
+    /// The state at T = μ_c + `beyond`, given as `point`, of a stack whose floor has slid from the start.
     pub(super) fn sliding_state(&self, beyond: f64, point: &PathPoint) -> State {
         let critical = self.ring.critical_friction;
         let turned = 2.0 * libm::atan(beyond / (1.0 + critical * (critical + beyond)));
@@ -372,8 +376,8 @@ impl Contacts {
         }
     }
 
-    /// Derivative of the state while the floor slides outwards with e = μ d, contact 2–3 being closed (docs/theory.md,
-    /// Eq. 112). The rotation, which the floor does not hold any more, is not followed.
+    /// Derivative of the state while the floor slides outwards with e = μ d and contact 2–3 is closed (docs/theory.md,
+    /// Eq. 112). The rotation is not followed, as the floor no longer holds it.
     pub(super) fn sliding_derivative(
         &self,
         state: &State,
@@ -391,7 +395,7 @@ impl Contacts {
         }
     }
 
-    /// The same if the pair `unloads` or not, and whether its overlap falls along it.
+    /// The derivative if the pair `unloads` or not, and whether its overlap falls along it.
     fn sliding_slope(
         &self,
         state: &State,
@@ -415,8 +419,8 @@ impl Contacts {
         let shear_slope = floor_friction * leg.floor_force_slope(ring);
         let left_shear = b * (1.0 - self.left_behind);
 
-        // Columns: ψ′, ρ′, b′, L′. Rows: torque on 2, horizontal force on 2, vertical force on 1, and how far the
-        // parameter is.
+        // Columns: ψ′, ρ′, b′, L′. Rows: torque on 2, horizontal force on 2, vertical force on 1, and the advance of
+        // the parameter.
         let torque = [
             0.0,
             -b * pair.torque,
@@ -464,7 +468,7 @@ impl Contacts {
         (slope, distance_slope > 0.0)
     }
 
-    /// What the neighbours push less per distance that the body moves outwards.
+    /// Decrease of the push of the neighbours per distance that the body moves outwards.
     fn bottom_stiffness(&self, state: &State) -> f64 {
         let ring = &self.ring;
         let overlap = ring.neighbour_overlap(state.outward(ring));
@@ -498,7 +502,8 @@ impl Contacts {
     }
 }
 
-/// The direction in which a path leaves the stress-free state: lengths over the angle turned, forces over its power p.
+/// The direction in which a path leaves the stress-free state: lengths divided by the angle turned, forces by its
+/// power p.
 struct Ray {
     pair_overlap: f64,
     shear: f64,
@@ -507,7 +512,8 @@ struct Ray {
 }
 
 impl Ray {
-    /// The ray on which the springs of both contacts collect what the geometry demands (docs/theory.md, Eqs. 83 and 104).
+    /// The ray on which the springs of both contacts take up the stretch that the geometry demands (docs/theory.md,
+    /// Eqs. 83 and 104).
     fn of(contacts: &Contacts) -> Self {
         let ring = &contacts.ring;
         let (widening, sine) = (2.0 + ring.rise, 0.5 * ring.radius);
@@ -515,12 +521,12 @@ impl Ray {
             let ray = Self::along(contacts, pair_overlap);
             ray.stretch(contacts).iter().sum::<f64>() + sine * pair_overlap - widening
         };
-        // Overlaps of 0 have no stiffness.
+        // An overlap of 0 has no stiffness.
         let pair_overlap = bracketed_root(excess, 1e-100, 2.0 * widening).unwrap_or(f64::NAN);
         Self::along(contacts, pair_overlap)
     }
 
-    /// Forces of the balances at ψ₀ and an overlap of the pair.
+    /// The forces that balance at ψ₀ and a given overlap of the pair.
     fn along(contacts: &Contacts, pair_overlap: f64) -> Self {
         let (law, ring) = (&contacts.law, &contacts.ring);
         let (sine, cosine) = (0.5 * ring.radius, 0.5 * ring.rise);
@@ -540,7 +546,7 @@ impl Ray {
         }
     }
 
-    /// How far the springs of pair and floor are stretched.
+    /// Stretch of the springs of pair and floor.
     fn stretch(&self, contacts: &Contacts) -> [f64; 2] {
         let floor_force = Leg::GravityRamp.floor_force(self.load, 0.0, &contacts.ring);
         let floor_overlap = contacts.wall.overlap(floor_force);
@@ -549,7 +555,8 @@ impl Ray {
             (&contacts.wall, floor_overlap),
         ];
         contacts.map(|(law, overlap)| {
-            // A force that grows with the power p of a length is p of itself per relative growth of it.
+            // In an incremental law, a force that grows as the power p of a length takes a stretch of p times force
+            // over stiffness.
             let growth = match law.history.keeps_force() {
                 true => law.power.value(),
                 false => 1.0,
@@ -644,7 +651,8 @@ mod tests {
         }
     }
 
-    /// A spring of stiffness √G keeps its length while the overlap G grows; one that is rescaled shortens as √G while it falls.
+    /// A spring of stiffness √G keeps its length while the overlap G grows; a rescaled one shortens as √G while G
+    /// falls.
     #[test]
     fn only_springs_of_contacts_that_unload_are_rescaled() {
         let rescaled = Law {
@@ -705,7 +713,7 @@ mod tests {
         assert!(seen[0] && seen[3], "{seen:?}");
     }
 
-    /// Torque and horizontal force on body 2 and vertical force on body 1, on a floor that slides.
+    /// Torque and horizontal force on body 2 and vertical force on body 1, while the floor slides.
     fn balances(contacts: &Contacts, state: &State, friction: f64) -> [f64; 3] {
         let ring = &contacts.ring;
         let (sin, cos) = libm::sincos(ring.angle + state.turned);

@@ -1,9 +1,10 @@
-//! The sliding branch of springs that nothing turns, while contact 2–3 is closed.
+//! The sliding branch of springs that do not turn, while contact 2–3 is closed.
 //!
-//! Springs that turn leave the sliding states without memory ([`SlidingBranch`]). A spring that nothing turns keeps the part
-//! p along the normal that it has collected, so that the branch is integrated: the floor bears e = μ d, the contact 1–2
-//! sticks, and p loses b dψ as before (docs/theory.md, Eq. 112). Under its own weight the stack slides along the logarithm
-//! of its load, under the wall along the direction u of its state, from that of the onset to 1, where the contact opens.
+//! With springs that turn, the sliding states have no memory ([`SlidingBranch`]). A spring that does not turn keeps
+//! the component p along the normal that it has collected, so the branch is integrated: the floor carries e = μ d, the
+//! contact 1–2 sticks, and p loses b dψ as before (docs/theory.md, Eq. 112). The parameter is the logarithm of the
+//! load while the stack slides under its own weight. Under the wall it is the direction u of the state, from that of
+//! the onset to 1, where the contact opens.
 
 use super::super::events::{Event, Path, PathPoint};
 use super::super::sliding::{OPENING, SlidingBranch, SlidingEnd, end_of_branch};
@@ -12,24 +13,24 @@ use super::{FollowedPath, integrated};
 use crate::model::{ContactConvention, Stack};
 use differential_equations::prelude::ODE;
 
-/// Load from which a stack slides that slips from the start, relative to its weight.
+/// First load of a stack that slides from the start, relative to its weight.
 const FIRST_LOAD: f64 = 1e-8;
-/// Largest distance of places, in the logarithm of the load, at which a sliding stack is looked at.
+/// Largest spacing, in the logarithm of the load, between the states at which a sliding stack is examined.
 const LOAD_SPACING: f64 = 0.25;
-/// Places between the onset and the opening of the contact at which the state is kept.
+/// Number of kept states between the onset and the opening of the contact.
 const KNOTS: usize = 32;
 
-/// The states of one stack that slides on the floor.
+/// The states of one stack while it slides on the floor.
 pub(in crate::theory) struct RememberedBranch<'a> {
     contacts: &'a Contacts,
     stack: &'a Stack,
-    /// Directions u and states, from the one under the wall at which the branch begins.
+    /// Directions u and their states, starting with the state under the wall at which the branch begins.
     knots: Vec<(f64, State)>,
     /// The state in which the wall just touches.
     pub(in crate::theory) settled: PathPoint,
 }
 
-/// The stack while its floor slides.
+/// The equations of a stack while its floor slides.
 struct SlidingEquation<'a> {
     contacts: &'a Contacts,
     floor_friction: f64,
@@ -60,8 +61,8 @@ impl SlidingEquation<'_> {
 }
 
 impl<'a> RememberedBranch<'a> {
-    /// The branch of `stack`, whose floor slips at the parameter `slip` of its `path`; `None` if contact 2–3 opens before
-    /// gravity is complete.
+    /// Follows the branch of `stack`, whose floor slips at the parameter `slip` of its `path`; `None` if contact 2–3
+    /// opens before gravity is complete.
     pub(in crate::theory) fn new(
         path: &'a FollowedPath,
         stack: &'a Stack,
@@ -87,7 +88,7 @@ impl<'a> RememberedBranch<'a> {
         for index in 1..KNOTS {
             let to = first + (OPENING - first) * index as f64 / KNOTS as f64;
             let (from, state) = knots[index - 1];
-            // A branch that ends before its contact opens has no state at its end either.
+            // A branch that ends before its contact opens has no state at the opening either.
             let Some(state) = sliding.advance(state, [from, to]) else {
                 break;
             };
@@ -101,8 +102,8 @@ impl<'a> RememberedBranch<'a> {
         })
     }
 
-    /// The peak, or what comes before it. Where the cylinders slip on the way, no path is known beyond: a spring remembers
-    /// how long it has slid.
+    /// Returns the peak, or the event that precedes it. If the cylinders slip on the way, the path beyond is unknown,
+    /// as a spring remembers how long it has slid.
     pub(in crate::theory) fn end(&self) -> SlidingEnd {
         let (start, _) = self.knots[0];
         let (end, peak) = end_of_branch(|direction| self.point(direction), start, self.stack);
@@ -116,7 +117,7 @@ impl<'a> RememberedBranch<'a> {
         }
     }
 
-    /// The state of the largest load, whatever comes before it.
+    /// Returns the state of the largest load, whatever precedes it.
     pub(in crate::theory) fn peak(&self) -> PathPoint {
         self.point(self.peak_direction())
     }
@@ -126,7 +127,7 @@ impl<'a> RememberedBranch<'a> {
         end_of_branch(|direction| self.point(direction), start, self.stack).1
     }
 
-    /// The kept states from the onset to that at u = `direction`, without it.
+    /// The kept states from the onset up to u = `direction`, exclusive.
     fn before(&self, direction: f64) -> impl Iterator<Item = &(f64, State)> {
         let (start, _) = self.knots[0];
         let whole = (direction - start).abs();
@@ -134,7 +135,7 @@ impl<'a> RememberedBranch<'a> {
         knots.take_while(move |(at, _)| (at - start).abs() < whole)
     }
 
-    /// The kept states up to that of the largest load, and this.
+    /// The kept states up to the largest load, and the state of that load.
     fn up_to_peak(&self) -> impl Iterator<Item = PathPoint> {
         let peak = self.peak_direction();
         let points = self.before(peak);
@@ -142,14 +143,14 @@ impl<'a> RememberedBranch<'a> {
         points.chain([self.point(peak)])
     }
 
-    /// The friction that the cylinders need up to the largest load.
+    /// The friction between the cylinders that is needed up to the largest load.
     pub(in crate::theory) fn needed_friction(&self) -> f64 {
         self.up_to_peak()
             .map(|point| point.pair_friction)
             .fold(0.0, f64::max)
     }
 
-    /// What is left of cylinder friction, or of the way of the wall, whichever is less, up to the largest load.
+    /// The smallest margin to cylinder slip or wall contact up to the largest load.
     pub(in crate::theory) fn margin(&self) -> f64 {
         let margins = self.up_to_peak().flat_map(|point| {
             [Event::CylinderSlip, Event::WallContact].map(|event| point.margin(event, self.stack))
@@ -157,7 +158,7 @@ impl<'a> RememberedBranch<'a> {
         margins.fold(f64::INFINITY, f64::min)
     }
 
-    /// The state at u = `direction` under the wall; not a number where there is none.
+    /// Returns the state at u = `direction` under the wall; NaN where there is none.
     fn point(&self, direction: f64) -> PathPoint {
         let after = self.knots.partition_point(|(at, _)| *at <= direction);
         let (from, state) = self.knots[after.saturating_sub(1)];
@@ -172,7 +173,8 @@ impl<'a> RememberedBranch<'a> {
     }
 }
 
-/// The state in which the floor begins to slide at the parameter `slip` of the `path`, before gravity is complete.
+/// Returns the state in which the floor begins to slide, at the parameter `slip` of the `path`, before gravity is
+/// complete.
 fn at_slip(
     path: &FollowedPath,
     stack: &Stack,
@@ -185,8 +187,8 @@ fn at_slip(
     }
 }
 
-/// The state at a small load of a stack whose floor slides from the start, where no spring has been left behind yet: there
-/// all springs are alike.
+/// Returns the state, at a small load, of a stack whose floor slides from the start. No spring has fallen behind its
+/// contact yet, so springs that turn have the same state there.
 fn slid_from_the_start(
     contacts: &Contacts,
     stack: &Stack,
@@ -201,8 +203,8 @@ fn slid_from_the_start(
     Some(contacts.sliding_state(beyond, &point))
 }
 
-/// How far the bottom cylinders overlap when gravity is complete, negative where they would have parted, if the floor of
-/// `stack` slips at the parameter `slip` of its `path` before.
+/// Returns the overlap of the bottom cylinders when gravity is complete, negative if they have separated. If the floor
+/// of `stack` slips before, at the parameter `slip` of its `path`, the stack slides until then.
 pub(in crate::theory) fn remembered_overlap_at_rest(
     path: &FollowedPath,
     stack: &Stack,
@@ -220,14 +222,15 @@ pub(in crate::theory) fn remembered_overlap_at_rest(
     Some(-rest.outward(&contacts.ring))
 }
 
-/// The state at rest of a stack that slides from `start` on while its weight grows; `None` if contact 2–3 opens meanwhile.
+/// Returns the state at rest of a stack that slides from `start` on while its weight grows; `None` if contact 2–3
+/// opens meanwhile.
 fn slid_under_own_weight(contacts: &Contacts, stack: &Stack, start: State) -> Option<State> {
     slid_until(contacts, stack, start, |state| {
         state.outward(&contacts.ring) < 0.0
     })
 }
 
-/// The same for as long as it `goes_on`.
+/// Slides the stack under its growing weight; `None` once a state does not satisfy `goes_on`.
 fn slid_until(
     contacts: &Contacts,
     stack: &Stack,
@@ -254,7 +257,8 @@ mod tests {
     use super::super::{BottomContact, followed_path};
     use super::*;
 
-    /// How the branch of the paper's stack with these ratio of stiffnesses, stiffness and frictions ends, and its largest load.
+    /// Returns the end of the branch, the state at the largest load and the state at the opening, for the paper's
+    /// stack with this stiffness ratio, stiffness, floor friction and cylinder friction.
     fn branch(
         [stiffness_ratio, stiffness, floor, cylinders]: [f64; 4],
     ) -> (SlidingEnd, PathPoint, PathPoint) {
@@ -283,7 +287,7 @@ mod tests {
 
     #[test]
     fn what_comes_after_a_peak_at_the_onset_does_not_end_the_branch() {
-        // 0.3850 at the onset, which is the peak, and 0.3928 later, while the load falls.
+        // It needs 0.3850 at the onset, which is the peak, and 0.3928 later, while the load falls.
         let (end, peak, _) = branch([1.0, 1e3, 0.4, 0.39]);
         assert_eq!(end, SlidingEnd::Peak(peak));
     }

@@ -1,8 +1,9 @@
-//! What a finite wall speed adds to onset and peak, to first order (docs/theory.md, section 8.7).
+//! The effect of a finite wall speed on onset and peak, to first order (docs/theory.md, section 8.7).
 //!
-//! Forces balance along the driven path up to the damping, which is linear in the rates: places and springs lag behind the
-//! path of equilibria by a part linear in the speed. Springs remember the way, so that this part is integrated along it.
-//! Once the floor slides, the stack moves linearly about the equilibrium at the onset, for which it has a mass.
+//! Forces balance along the driven path up to the damping, which is linear in the rates. Positions and springs
+//! therefore lag behind the path of equilibria by an amount that is linear in the speed. Springs remember the path, so
+//! the lag is integrated along it. Once the floor slides, the stack moves linearly about the equilibrium at the onset,
+//! and its mass matters.
 
 use super::FollowedPath;
 use super::balance::{Contacts, Leg, State};
@@ -12,34 +13,36 @@ use crate::theory::root::bracketed_root;
 use differential_equations::prelude::{ExplicitRungeKutta, IVP, ODE};
 use nalgebra::{Matrix3x4, Matrix4, Matrix4x3, RowVector4, SMatrix, SVector, Vector3, Vector4};
 
-/// What is added to F = f/(m g) per wall speed in r √(k_n/m), to first order in the speed.
+/// Increase of F = f/(m g) per unit of wall speed in r √(k_n/m), to first order in the speed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SpeedExcess {
-    /// Of the onset of slip, where the tangential force of the floor reaches its limit: damping makes springs lag behind the
-    /// forces.
+    /// Increase of the force at the onset of slip, where the tangential force of the floor reaches its limit: because
+    /// of damping, springs lag behind the forces.
     pub onset: f64,
-    /// Of the peak: the sliding stack needs a time to give way, during which the wall loads on.
+    /// Increase of the peak: the sliding stack takes time to give way, while the wall continues to load it.
     pub peak: f64,
 }
 
-/// y₁, x₂, y₂ and the rotation of cylinder 2, or changes of them; x₂ is the distance of body 2 from the axis.
+/// y₁, x₂, y₂ and the rotation of cylinder 2, or changes of these; x₂ is the distance of body 2 from the axis.
 type Place = Vector4<f64>;
-/// b and p of the pair and e of the floor, or changes of them.
+/// b and p of the pair and e of the floor, or changes of these.
 type Springs = Vector3<f64>;
 
-/// Numbers of the state that is integrated: that of the path, and the springs' part of the lag.
+/// Size of the integrated state: that of the path, and the springs' part of the lag.
 const NUMBERS: usize = 10;
 
-/// Numbers of a sliding motion: place, velocity, time since the wall was where the floor slips at rest, and 1.
+/// Size of the state of a sliding motion: place, velocity, time since the wall was where the floor slips at rest, and
+/// 1.
 const SLIDING: usize = 10;
-/// Relative tolerance of the lag, of which the verdict needs three digits.
+/// Relative tolerance of the lag; the verdict needs three digits of it.
 const LAG_TOLERANCE: f64 = 1e-9;
-/// Time between two looks at the sliding motion, in the time scale of the stack.
+/// Interval at which the sliding motion is sampled, in units of the time scale of the stack.
 const LOOK: f64 = 0.05;
-/// Looks after which a motion that has not given back what it gained has no peak.
+/// Number of samples after which a motion counts as having no peak, if the force has not fallen below its start by
+/// then.
 const LOOKS: usize = 20_000;
-/// Relative change of an overlap over which the slope of a steepening is taken, which is one over the overlap: exact to the
-/// square of it.
+/// Relative change of an overlap for the slope of the steepening. The steepening is one over the overlap, so the
+/// difference is exact to the square of this.
 const DIFFERENCE: f64 = 1e-4;
 
 /// A stack in equilibrium under the wall.
@@ -53,19 +56,19 @@ struct Equilibrium<'a> {
     floor_overlap: f64,
 }
 
-/// The motion of an equilibrium along the path.
+/// The rates of an equilibrium along the path.
 struct Rates {
-    /// Per turn of the pair, as the path has them.
+    /// Rates per turn of the pair, as the path has them.
     place_per_turn: Place,
     springs_per_turn: Springs,
-    /// Per wall travel: at the wall speed 1 these are velocities.
+    /// Rates per wall travel; at the wall speed 1 these are velocities.
     place: Place,
     springs: Springs,
-    /// Of the overlap of the wall with cylinder 1.
+    /// Rate of the overlap between the wall and cylinder 1.
     wall_overlap: f64,
 }
 
-/// Forces on the four coordinates per change of place, of springs, and per velocity.
+/// Change of the forces on the four coordinates with place, springs and velocity.
 struct Response {
     place: Matrix4<f64>,
     springs: Matrix4x3<f64>,
@@ -85,19 +88,19 @@ impl<'a> Equilibrium<'a> {
         }
     }
 
-    /// ρ̇ of a velocity.
+    /// ρ̇ for a velocity.
     fn opening(&self) -> RowVector4<f64> {
         let [sin, cos] = self.direction;
         RowVector4::new(cos, sin, -cos, 0.0)
     }
 
-    /// ψ̇ of a velocity.
+    /// ψ̇ for a velocity.
     fn turning(&self) -> RowVector4<f64> {
         let [sin, cos] = self.direction;
         RowVector4::new(-sin, cos, sin, 0.0) / self.distance
     }
 
-    /// The sliding speed of pair and floor of a velocity (docs/theory.md, Eq. 15).
+    /// The sliding speeds of pair and floor for a velocity (docs/theory.md, Eq. 15).
     fn sliding(&self) -> [RowVector4<f64>; 2] {
         let arms = &self.contacts.arms;
         let pair = 1.0 + arms.pair.kinematic * self.state.pair_overlap;
@@ -108,12 +111,12 @@ impl<'a> Equilibrium<'a> {
         ]
     }
 
-    /// The overlap rates of pair and floor of a velocity.
+    /// The overlap rates of pair and floor for a velocity.
     fn closing(&self) -> [RowVector4<f64>; 2] {
         [-self.opening(), RowVector4::new(0.0, 0.0, -1.0, 0.0)]
     }
 
-    /// Rates of the springs of a velocity (docs/theory.md, Eqs. 39, 81 and 109).
+    /// The rates of the springs for a velocity (docs/theory.md, Eqs. 39, 81 and 109).
     fn spring_rates(&self) -> Matrix3x4<f64> {
         let contacts = self.contacts;
         let [upper, lower] = self.steepening();
@@ -146,7 +149,7 @@ impl<'a> Equilibrium<'a> {
         }
     }
 
-    /// How the forces on the coordinates answer, the wall's left out. On a floor that slides, |t| = μ n in place of the
+    /// Returns how the forces on the coordinates respond, without the wall. On a sliding floor, |t| = μ n replaces the
     /// spring and its damper.
     fn response(&self, sliding_friction: Option<f64>) -> Response {
         let contacts = self.contacts;
@@ -161,7 +164,7 @@ impl<'a> Equilibrium<'a> {
         let pressing = contacts.law.force(self.state.pair_overlap) + self.state.pair_lift;
         let turning = self.turning();
         let [pair_closing, floor_closing] = self.closing();
-        // Forces of the contacts: along the normal of the pair, along its tangent, of the floor upwards and inwards.
+        // Contact forces: of the pair along its normal and along its tangent, of the floor upwards and inwards.
         let assembled = |along: RowVector4<f64>,
                          across: RowVector4<f64>,
                          up: RowVector4<f64>,
@@ -178,7 +181,7 @@ impl<'a> Equilibrium<'a> {
         let up = floor_closing * contacts.wall.stiffness(self.floor_overlap);
         let pressed = pair_closing * contacts.law.stiffness(self.state.pair_overlap);
         let mut place = assembled(pressed, none, up, up * friction);
-        // What turns with the pair, and what the arms change.
+        // Terms from the rotation of the pair, and from the change of the arms.
         let turned = Matrix4::from_rows(&[
             turning * (bodies * (b * cos - pressing * sin)),
             turning * (pressing * cos + b * sin),
@@ -234,7 +237,7 @@ impl<'a> Equilibrium<'a> {
             slope.rotation,
         );
         let springs = Springs::new(slope.pair_shear, slope.pair_lift, slope.floor_shear);
-        // The wall travels by the growth of its overlap, L′/k, and by what cylinder 1 sinks.
+        // The wall travels by the growth of its overlap, L′/k, and by the distance that cylinder 1 sinks.
         let stiffness = self.wall_stiffness();
         let travel = slope.load - stiffness * upper;
         Rates {
@@ -259,7 +262,8 @@ impl<'a> Equilibrium<'a> {
         self.contacts.wall.at(self.wall_overlap()).damping_normal
     }
 
-    /// The lag of place and springs behind the path at the wall speed 1, `kept` being what the springs keep of the way.
+    /// Returns the lag of place and springs behind the path at the wall speed 1, where `kept` is what the springs
+    /// retain from the path so far.
     fn lag(&self, rates: &Rates, kept: &Springs) -> (Place, Springs) {
         let response = self.response(None);
         let mut stiffness = response.place + response.springs * self.spring_rates();
@@ -273,7 +277,8 @@ impl<'a> Equilibrium<'a> {
         (place, kept + self.spring_rates() * place)
     }
 
-    /// What springs keep of the way, per turn of the pair: the way there and the way back are not the same.
+    /// The rate, per turn of the pair, at which springs retain a lag. It is the difference between lagging first and
+    /// then moving along the path, and the reverse order.
     fn kept_rate(&self, kept: &Springs) -> Springs {
         let rates = self.rates();
         let (place, springs) = self.lag(&rates, kept);
@@ -296,13 +301,13 @@ impl<'a> Equilibrium<'a> {
         let [pair_sliding, floor_sliding] = self.sliding();
         let turn = (turning * place)[0];
         let [closer, deeper] = [pair_closing, floor_closing].map(|row| (row * place)[0]);
-        // Of the rows themselves: direction and distance of the pair, and the radii at which surfaces move.
+        // Changes of the rows themselves: direction and distance of the pair, and the radii at which surfaces move.
         let across = RowVector4::new(-cos, -sin, cos, 0.0) * turn;
         let turning_change = (across + turning * closer) / self.distance;
         let closing_change = turning * (-self.distance * turn);
         let pair_change = across - RowVector4::new(0.0, 0.0, 0.0, arms.pair.kinematic * closer);
         let floor_change = RowVector4::new(0.0, 0.0, 0.0, arms.floor.kinematic * deeper);
-        // Of stiffnesses, and of what springs gain as overlaps grow.
+        // Changes of the stiffnesses, and of the gain of the springs as overlaps grow.
         let laws = [
             (&contacts.law, self.state.pair_overlap, closer),
             (&contacts.wall, self.floor_overlap, deeper),
@@ -337,7 +342,7 @@ impl<'a> Equilibrium<'a> {
     }
 }
 
-/// The path under the wall together with what springs keep of the lag.
+/// The path under the wall, together with the lag that springs retain.
 struct LaggingLeg<'a>(&'a Contacts);
 
 impl ODE<f64, [f64; NUMBERS]> for LaggingLeg<'_> {
@@ -355,14 +360,16 @@ impl ODE<f64, [f64; NUMBERS]> for LaggingLeg<'_> {
 }
 
 impl FollowedPath {
-    /// What a finite speed adds where the floor of `stack`, which is on the path, slips with c = 0; `None` where springs are
-    /// rescaled, where frozen springs count alone, or where the sliding stack does not give way.
+    /// Returns the effect of a finite speed where the floor of `stack`, which must be on the path, slips with c = 0.
+    /// `None` where springs are rescaled, where Coulomb's limit applies to frozen springs alone, or where the sliding
+    /// stack does not give way.
     pub(in crate::theory) fn speed_excess(
         &self,
         stack: &Stack,
         convention: &ContactConvention,
     ) -> Option<SpeedExcess> {
-        // A frozen spring that counts alone sticks again for a step whenever the limit has grown past it, and its damper acts then.
+        // A frozen spring that alone is limited sticks again for a step whenever the limit has grown past it, and its
+        // damper acts in that step.
         let chatters = convention.coulomb_operand == CoulombOperand::Spring
             && convention.sliding_spring == SlidingSpring::Frozen;
         if convention.law.history.is_rescaled() || chatters {
@@ -388,7 +395,7 @@ impl FollowedPath {
     }
 }
 
-/// The state in which the floor slips at rest, and what springs have kept of the lag by then.
+/// The state in which the floor slips at rest, and the lag that springs have retained by then.
 struct Onset<'a> {
     equilibrium: Equilibrium<'a>,
     kept: Springs,
@@ -400,7 +407,7 @@ impl Onset<'_> {
         let friction = stack.floor_friction;
         let rates = equilibrium.rates();
         let (place, springs) = equilibrium.lag(&rates, &self.kept);
-        // How far e is from μ d, and how fast it comes.
+        // The distance of e from μ d, and the rate at which it shrinks.
         let [_, floor_closing] = equilibrium.closing();
         let [_, floor_sliding] = equilibrium.sliding();
         let floor = equilibrium.contacts.wall.at(equilibrium.floor_overlap);
@@ -413,7 +420,7 @@ impl Onset<'_> {
         let pressed = (floor_closing * rates.place)[0] * floor.damping_normal;
         let growth = rates.springs[2] - friction * pressing(&rates.place);
         let behind = springs[2] - friction * (pressing(&place) + pressed);
-        // The time at which the tangential force reaches the limit, and that at which the floor begins to slide.
+        // When the tangential force reaches the limit, and when the floor begins to slide.
         let reached = -(behind + damping) / growth;
         let late = match convention.coulomb_operand {
             CoulombOperand::SpringAndDamping => reached,
@@ -442,7 +449,8 @@ impl Onset<'_> {
         })
     }
 
-    /// The linear motion of the stack on a sliding floor under a wall that moves with the speed 1, its pair sticking.
+    /// The linear motion of the stack on a sliding floor while its pair sticks, under a wall that moves with the speed
+    /// 1.
     fn sliding_motion(
         &self,
         stack: &Stack,
@@ -477,7 +485,7 @@ impl Onset<'_> {
     }
 }
 
-/// A linear motion from a state on, and the wall force that it has beyond that of the equilibrium.
+/// A linear motion from an initial state, and its wall force relative to the equilibrium.
 struct SlidingMotion {
     rates: SMatrix<f64, SLIDING, SLIDING>,
     wall: SMatrix<f64, 1, SLIDING>,
@@ -489,7 +497,7 @@ impl SlidingMotion {
         (self.wall * state)[0]
     }
 
-    /// The largest wall force until what was gained is lost again.
+    /// Returns the largest wall force before the force falls below its start again; `None` if it never does.
     fn largest_force(&self, time_step: f64) -> Option<f64> {
         let step = (self.rates * time_step).exp();
         let start = self.force(&self.state);
@@ -510,7 +518,7 @@ impl SlidingMotion {
         None
     }
 
-    /// The largest force within a time after `state` in which it has one maximum.
+    /// Returns the largest force within a time after `state` in which the force has one maximum.
     fn summit(&self, state: &SVector<f64, SLIDING>, time: f64) -> f64 {
         let after = |time: f64| (self.rates * time).exp() * state;
         let slope = |time: f64| self.force(&(self.rates * after(time)));
@@ -526,7 +534,7 @@ mod tests {
     use crate::theory::LimitCurve;
     use crate::theory::path::{BottomContact, followed_path};
 
-    /// Stacks whose laws, arms and springs differ in all that rates depend on, somewhere under the wall.
+    /// Runs `check` on stacks under the wall whose laws, arms and springs differ in everything that affects the rates.
     fn with_equilibria(check: impl Fn(&Equilibrium, &FollowedPath, f64)) {
         let (half, whole) = (Arms::reciprocal(-0.5, -1.0), Arms::reciprocal(0.7, 0.4));
         let keeping = Law {
@@ -552,7 +560,7 @@ mod tests {
         }
     }
 
-    /// The equilibrium with its bodies moved and its springs stretched; all else is left as it is.
+    /// The equilibrium with its bodies moved and its springs stretched; everything else stays the same.
     fn moved<'a>(at: &Equilibrium<'a>, place: &Place, springs: &Springs) -> Equilibrium<'a> {
         let [pair_closing, floor_closing] = at.closing();
         let turned = at.state.turned + (at.turning() * place)[0];
@@ -576,7 +584,7 @@ mod tests {
 
     const STEP: f64 = 1e-6;
 
-    /// Changes in no special direction.
+    /// Changes in generic directions.
     fn changes() -> [(Place, Springs); 2] {
         [
             (
@@ -605,8 +613,8 @@ mod tests {
         });
     }
 
-    /// Forces on y₁, x₂, y₂ and the rotation of body 2 by what bodies and springs are (docs/theory.md, Eqs. 17 to 20), weights and
-    /// wall left out.
+    /// Forces on y₁, x₂, y₂ and the rotation of body 2 from bodies and springs (docs/theory.md, Eqs. 17 to 20),
+    /// without weights and wall.
     fn forces(at: &Equilibrium, sliding_friction: Option<f64>) -> Place {
         let contacts = at.contacts;
         let [sin, cos] = at.direction;
@@ -745,17 +753,17 @@ mod tests {
             excess(&stack, &ContactConvention::TURNING),
             excess(&stack, &alone),
         );
-        // The damper holds the floor beyond the limit until the spring has reached it.
+        // The damper holds the floor beyond the limit until the spring has reached the limit.
         assert_eq!(alone.onset, with_damping.onset);
         assert!(alone.peak > with_damping.peak, "{alone:?} {with_damping:?}");
-        // Native runs at the wall speeds 1e-5 and 5e-6, extrapolated to 0 (time steps 0.01 and 0.005): 294.7 and 281.3, to some 0.5 %
-        // by the ringing after the touch of the wall.
+        // Native runs at the wall speeds 1e-5 and 5e-6, extrapolated to 0 (time steps 0.01 and 0.005): 294.7 and
+        // 281.3, to some 0.5 % because of the ringing after the touch of the wall.
         assert!((alone.peak / 294.7 - 1.0).abs() < 1e-2, "{alone:?}");
         let off = with_damping.peak / 281.3 - 1.0;
         assert!(off.abs() < 1e-2, "{with_damping:?}");
     }
 
-    /// A law whose contacts have no stiffness when they just touch.
+    /// Hertz contacts have no stiffness when they just touch.
     #[test]
     fn the_wall_that_just_touches_a_soft_contact_stands_still() {
         let hertz = ContactConvention {
@@ -770,13 +778,14 @@ mod tests {
         assert!(found.onset > 0.0 && found.peak > found.onset, "{found:?}");
     }
 
-    /// Softest to stiffest, where differences of forces would be lost in rounding.
+    /// In the stiffest stacks, differences of forces would be lost in rounding.
     #[test]
     fn the_peak_of_stiff_stacks_grows_with_the_stiffness() {
         for convention in [ContactConvention::PAPER, ContactConvention::TURNING] {
             let peak = |stiffness| excess(&Stack::paper(0.2, stiffness), &convention).peak;
             let peaks = [1e4, 1e6, 1e8].map(peak);
-            // Below the critical friction stiff stacks give way in a time of their own, while F grows with k_n v t.
+            // Below the critical friction, stiff stacks give way in a time that is fixed in √(m/k_n), while F grows
+            // with k_n v t.
             let growth = [peaks[1] / peaks[0], peaks[2] / peaks[1]];
             let above = growth.map(|growth| growth / 100.0 - 1.0);
             assert!(above[0].abs() < 3e-3 && above[1].abs() < 3e-5, "{peaks:?}");
@@ -792,7 +801,7 @@ mod tests {
             assert!(curve.speed_excess(stack, &limit).is_none());
             limit
         };
-        // Native has 330 per speed where a continuous motion would have 296.
+        // The native code has 330 per unit of speed; a continuous motion would have 296.
         let frozen = ContactConvention {
             coulomb_operand: CoulombOperand::Spring,
             ..paper

@@ -1,4 +1,4 @@
-//! The path as a path: where it is known, how its legs join, and when contact 2–3 closes.
+//! Tests of the path itself: where it is known, how its legs join, and when contact 2–3 closes.
 
 #![cfg(test)]
 
@@ -76,7 +76,7 @@ fn contact_of_the_bottom_is_closed_from_the_start_below_the_closing_stiffness_ra
     assert!(!closed(0.5, BottomContact::Ignored));
 }
 
-/// So close to κ_c the contact opens before the first place at which its change is looked for.
+/// So close to κ_c, the contact opens before the first place at which the search looks for a change.
 #[test]
 fn a_contact_that_opens_within_round_off_of_the_start_is_open_from_there_on() {
     let paths = (0..8).map(|units| {

@@ -5,23 +5,23 @@ use super::super::events::Event;
 use super::equilibrium_path::EquilibriumPath;
 use crate::model::Stack;
 
-/// A floor friction at which something else begins to happen.
+/// A floor friction at which the outcome changes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Boundary {
     /// The floor friction μ.
     pub floor_friction: f64,
-    /// Event that ends the path at a little less friction …
+    /// The event that ends the path at slightly less friction.
     pub below: Event,
-    /// … and at a little more.
+    /// The event that ends the path at slightly more friction.
     pub above: Event,
 }
 
 impl Boundary {
-    /// Every boundary in μ of stacks like `stack` on their `path`, lowest first.
+    /// Returns every boundary in μ of stacks like `stack` on their `path`, lowest first.
     ///
-    /// Up to the largest e/d along the gravity ramp the floor slips under own weight; from e/d at the next
-    /// other event on, that event comes before floor slip. There is none where the cylinders slip under
-    /// own weight: the stack falls whatever the floor is like.
+    /// Up to the largest e/d along the gravity ramp, the floor slips under own weight. Above the largest e/d up to the
+    /// next other event, that event comes before floor slip. There is no boundary where the cylinders slip under own
+    /// weight: the stack then falls whatever the floor friction.
     pub fn in_friction(path: &EquilibriumPath, stack: &Stack) -> Vec<Self> {
         let slip = path.locate(Event::CylinderSlip, stack);
         let Some((above, end)) = earlier(slip, path.wall_contact()) else {
@@ -44,7 +44,7 @@ impl Boundary {
     }
 }
 
-/// Cylinder slip or wall contact, whichever comes first.
+/// Returns cylinder slip or wall contact, whichever comes first.
 fn earlier(slip: Option<f64>, wall: Option<f64>) -> Option<(Event, f64)> {
     match (slip, wall) {
         (Some(slip), Some(wall)) if slip > wall => Some((Event::WallContact, wall)),

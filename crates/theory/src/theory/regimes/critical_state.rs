@@ -4,11 +4,11 @@ use super::super::events::Event;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
-/// Leg of the path on which an event lies.
+/// Leg of the path on which an event occurs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum LoadingPhase {
-    /// Gravity grows; there is no wall yet.
+    /// Gravity grows; the wall does not touch yet.
     OwnWeight,
     /// The wall presses.
     Wall,

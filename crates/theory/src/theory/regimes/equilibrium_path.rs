@@ -1,4 +1,4 @@
-//! The path of equilibria that all stacks of one stiffness and one stiffness ratio share.
+//! The path of equilibria shared by all stacks with one stiffness and one stiffness ratio.
 
 use super::super::events::{Event, Path, PathPoint, locate};
 use super::super::path::{BottomContact, FollowedPath, followed_path};
@@ -7,8 +7,8 @@ use super::super::root::maximum_between;
 use super::critical_state::{CriticalState, LoadingPhase};
 use crate::model::{ContactConvention, HistoryUpdate, Stack};
 
-/// The path of equilibria under the paper's arms and linear springs, with c > 0 where the bottom cylinders touch. Floor
-/// friction and cylinder friction decide how far a stack gets on it, and nothing else.
+/// The path of equilibria with the paper's arms and linear springs, with c > 0 where the bottom cylinders touch. Floor
+/// friction and cylinder friction only decide how far a stack gets on it.
 pub struct EquilibriumPath {
     path: PathKind,
     convention: ContactConvention,
@@ -20,14 +20,14 @@ pub struct EquilibriumPath {
 }
 
 enum PathKind {
-    /// c = 0 all the way, and springs turn: the closed form.
+    /// The closed form: c = 0 all the way, and springs turn.
     Open(ClosedForm),
-    /// Contact 2–3 closes somewhere, or nothing turns the springs.
+    /// The followed path: contact 2–3 closes somewhere, or springs do not turn.
     Followed(FollowedPath),
 }
 
 impl EquilibriumPath {
-    /// The path that `stack` takes, whatever its frictions, with springs that change by this rule as their contacts turn.
+    /// The path of `stack`, whatever its frictions, with springs that follow the rule `history_update`.
     pub fn new(stack: &Stack, history_update: HistoryUpdate) -> Self {
         let convention = ContactConvention {
             history_update,
@@ -65,7 +65,8 @@ impl EquilibriumPath {
         self.closes
     }
 
-    /// The followed path and its convention, if nothing turns the springs: they remember how their contacts have turned.
+    /// The followed path and its convention if springs do not turn, so that they remember how their contacts have
+    /// turned.
     pub(super) fn remembering(&self) -> Option<(&FollowedPath, &ContactConvention)> {
         match &self.path {
             PathKind::Followed(path) if !self.convention.history_update.turns() => {
@@ -75,13 +76,13 @@ impl EquilibriumPath {
         }
     }
 
-    /// What the contact 1–2 needs when the stack rests under its own weight: the cylinder friction that this takes.
+    /// The cylinder friction that the contact 1–2 needs when the stack rests under its own weight.
     pub fn settled_pair_ratio(&self) -> f64 {
         self.point(self.settled()).pair_friction
     }
 
-    /// The same when the top wall reaches the bottom cylinders: with more cylinder friction than this it gets
-    /// that far. `None` if the path ends before.
+    /// The cylinder friction that the contact 1–2 needs when the top wall reaches the bottom cylinders; with more, the
+    /// stack gets that far. `None` if the path ends before.
     pub fn wall_contact_pair_ratio(&self) -> Option<f64> {
         Some(self.point(self.wall_contact?).pair_friction)
     }
@@ -100,7 +101,7 @@ impl EquilibriumPath {
         self.wall_contact
     }
 
-    /// The first parameter at which `event` happens to `stack`; 0 if from the start.
+    /// The first parameter at which `event` happens to `stack`; 0 if it has happened by the first station.
     pub(super) fn locate(&self, event: Event, stack: &Stack) -> Option<f64> {
         locate(self.path.as_path(), event, stack)
     }
@@ -118,12 +119,12 @@ impl EquilibriumPath {
         self.path.as_path().point(parameter)
     }
 
-    /// The first station, at which the path has its initial ratios.
+    /// The first station, where the path has its initial ratios.
     pub(super) fn beginning(&self) -> f64 {
         self.path.as_path().stations()[0]
     }
 
-    /// The largest of `value` between the beginning and `end`.
+    /// Returns the largest `value` between the beginning and `end`.
     pub(super) fn largest_until(&self, end: f64, value: impl Fn(&PathPoint) -> f64) -> f64 {
         let at = |parameter: f64| value(&self.point(parameter));
         let stations = self.path.as_path().stations().into_iter();
@@ -155,7 +156,8 @@ impl EquilibriumPath {
         self.state_at(event, &point, stage, self.settled_height())
     }
 
-    /// The state `point`, in which `event` happens; `settled_height` is that of the top wall where it first touches.
+    /// The state `point`, in which `event` happens; `settled_height` is the height of the top wall when it first
+    /// touches.
     pub(super) fn state_at(
         &self,
         event: Event,

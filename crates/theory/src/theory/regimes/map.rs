@@ -6,7 +6,7 @@ use super::{Boundary, CLOSING_STIFFNESS_RATIO, EquilibriumPath, LoadingOutcome};
 use crate::model::{HistoryUpdate, Stack};
 use serde::Serialize;
 
-/// Property that varies besides the floor friction.
+/// The property that varies besides the floor friction.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Axis {
@@ -19,7 +19,7 @@ pub enum Axis {
 }
 
 impl Axis {
-    /// `stack` with another value on this axis.
+    /// Returns `stack` with another value on this axis.
     pub fn set(self, stack: &Stack, value: f64) -> Stack {
         let mut changed = *stack;
         match self {
@@ -30,7 +30,7 @@ impl Axis {
         changed
     }
 
-    /// The value of `stack` on this axis.
+    /// Returns the value of `stack` on this axis.
     pub fn get(self, stack: &Stack) -> f64 {
         match self {
             Self::Stiffness => stack.stiffness,
@@ -48,20 +48,20 @@ impl Axis {
         }
     }
 
-    /// Whether its values spread over decades.
+    /// Whether the axis is logarithmic.
     pub fn is_logarithmic(self) -> bool {
         self != Self::CylinderFriction
     }
 }
 
-/// A rectangle of stacks.
+/// A rectangle in the plane of floor friction and one more property.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RegimeMap {
-    /// Property that varies besides the floor friction.
+    /// The property that varies besides the floor friction.
     pub axis: Axis,
-    /// Everything that does not vary.
+    /// The stack with all values that do not vary.
     pub base: Stack,
-    /// What tangential springs do as their contacts turn.
+    /// The rule by which tangential springs change as their contacts turn.
     pub history_update: HistoryUpdate,
     /// Lowest and highest value on the axis.
     pub range: (f64, f64),
@@ -69,12 +69,12 @@ pub struct RegimeMap {
     pub frictions: (f64, f64),
 }
 
-/// Number of values of an axis between which lines are sought.
+/// Number of values on an axis, between which lines are searched.
 const SEARCHED_VALUES: usize = 65;
 
 impl RegimeMap {
-    /// The three maps: over stiffness, cylinder friction and stiffness ratio, each about the paper's stack at
-    /// stiffness 100, with `stiffness_ratio` where that does not vary.
+    /// The three maps: over stiffness, cylinder friction and stiffness ratio. Each varies the paper's stack at
+    /// stiffness 100, with `stiffness_ratio` where that is not the axis.
     pub fn standard(stiffness_ratio: f64, history_update: HistoryUpdate) -> [Self; 3] {
         let over = |axis, range| Self {
             axis,
@@ -93,17 +93,17 @@ impl RegimeMap {
         ]
     }
 
-    /// `count` values on the axis, both ends included; evenly spread, or over the logarithm.
+    /// Returns `count` values on the axis, both ends included, evenly spaced on its linear or logarithmic scale.
     pub fn axis_values(&self, count: usize) -> Vec<f64> {
         spread(self.range, count, self.axis.is_logarithmic())
     }
 
-    /// `count` floor frictions, both ends included.
+    /// Returns `count` floor frictions, evenly spaced, both ends included.
     pub fn friction_values(&self, count: usize) -> Vec<f64> {
         spread(self.frictions, count, false)
     }
 
-    /// Length of a part of the axis, on the scale on which the axis is spread.
+    /// Length of an interval of the axis, on the scale of the axis.
     pub fn width(&self, (from, to): (f64, f64)) -> f64 {
         if self.axis.is_logarithmic() {
             libm::log(to / from)
@@ -112,7 +112,7 @@ impl RegimeMap {
         }
     }
 
-    /// The middle of a part of the axis, on that scale.
+    /// Midpoint of an interval of the axis, on the scale of the axis.
     pub fn middle(&self, part: (f64, f64)) -> f64 {
         spread(part, 3, self.axis.is_logarithmic())[1]
     }
@@ -130,7 +130,7 @@ impl RegimeMap {
         EquilibriumPath::new(&self.axis.set(&self.base, value), self.history_update)
     }
 
-    /// The boundaries in μ at a value on the axis that lie on the map.
+    /// The boundaries in μ at a value on the axis, as far as they lie on the map.
     pub fn friction_boundaries(&self, value: f64) -> Vec<Boundary> {
         let stack = self.axis.set(&self.base, value);
         let all = Boundary::in_friction(&self.path(value), &stack).into_iter();
@@ -161,7 +161,8 @@ impl RegimeMap {
         lines
     }
 
-    /// The floor friction above which `line` is a boundary: with less, the floor slips first on both sides of it.
+    /// The floor friction above which `line` is a boundary. With less, the floor slips first on both sides of the
+    /// line.
     pub fn lowest_friction_of(&self, line: Line) -> f64 {
         let path = self.path(line.value());
         let end = match line {
@@ -172,9 +173,9 @@ impl RegimeMap {
         needed.map_or(self.frictions.0, |needed| needed.max(self.frictions.0))
     }
 
-    /// The values on the axis at which contact 2–3 has just opened again when gravity is complete, or when the
-    /// wall reaches the bottom cylinders, where the frictions of [`super::released_frictions`] cease to matter;
-    /// and those at which the failure of a stack beyond them changes.
+    /// The values on the axis at which contact 2–3 has just opened again when gravity is complete, or when the wall
+    /// reaches the bottom cylinders; beyond them the frictions of [`super::released_frictions`] no longer matter. Also
+    /// the values at which the failure of stacks above those frictions changes.
     pub fn reopenings(&self) -> Vec<f64> {
         let path = |value: f64| self.path(value);
         let settled = self.roots(|value| path(value).settled_outward());
@@ -187,8 +188,8 @@ impl RegimeMap {
         settled.chain(wall).chain(pair).collect()
     }
 
-    /// Points on every boundary, with the outcomes on both sides at a relative distance of `distance`: on the
-    /// boundaries in μ at `count` values on the axis, on each line at `count` floor frictions.
+    /// Points on every boundary, with the outcomes on both sides at a relative distance of `distance`. The boundaries
+    /// in μ have points at `count` values on the axis, and each line has them at `count` floor frictions.
     pub fn boundary_points(&self, count: usize, distance: f64) -> Vec<BoundaryPoint> {
         let mut places = Vec::new();
         for value in self.axis_values(count) {
@@ -243,7 +244,7 @@ impl Line {
     }
 }
 
-/// Property that changes when a boundary is crossed.
+/// The property that changes when a boundary is crossed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Across {
     /// μ.
@@ -268,17 +269,17 @@ impl Across {
 /// A stack on a boundary, and the predicted outcomes of its neighbours.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BoundaryPoint {
-    /// The map, by the axis that it has besides the floor friction.
+    /// The axis of the map besides the floor friction.
     pub map: Axis,
-    /// What tangential springs do as their contacts turn.
+    /// The rule by which tangential springs change as their contacts turn.
     pub history_update: HistoryUpdate,
     /// The stack on the boundary.
     pub stack: Stack,
-    /// Property that changes across the boundary.
+    /// The property that changes across the boundary.
     pub across: Across,
-    /// Relative distance of the neighbours.
+    /// Relative distance of the neighbours from the boundary.
     pub distance: f64,
-    /// Outcomes of the neighbour below and of the one above.
+    /// Outcomes of the lower and the upper neighbour.
     pub sides: [LoadingOutcome; 2],
 }
 
@@ -297,7 +298,7 @@ impl BoundaryPoint {
         })
     }
 
-    /// The neighbour below and the one above.
+    /// The lower and the upper neighbour.
     pub fn neighbours(&self) -> [Stack; 2] {
         [1.0 - self.distance, 1.0 + self.distance]
             .map(|factor| self.across.scale(&self.stack, factor))

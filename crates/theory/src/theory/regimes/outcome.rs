@@ -8,11 +8,11 @@ use crate::model::{HistoryUpdate, Stack};
 use serde::Serialize;
 use std::fmt;
 
-/// Effect of the first event on the stack.
+/// The effect of the first event on the stack.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum FailureMode {
-    /// It does not stand.
+    /// The stack does not stand.
     Collapses,
     /// The floor gives way under the wall.
     Yields,
@@ -22,7 +22,7 @@ pub enum FailureMode {
     Shares,
     /// The wall rests on the bottom cylinders too.
     SecondLoadPath,
-    /// The load has passed a maximum before anything happened.
+    /// The load passes a maximum before any event.
     Softens,
 }
 
@@ -45,17 +45,17 @@ impl fmt::Display for FailureMode {
     }
 }
 
-/// The first event, the first slip or wall contact, and the stages in which they come: what all stacks of
-/// one region of the map have in common.
+/// The first event, the first slip or wall contact, and the phases in which they occur: the common properties of all
+/// stacks in one region of the map.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Regime {
     /// The first event.
     pub first: Event,
-    /// When it comes.
+    /// The phase in which it occurs.
     pub first_stage: LoadingPhase,
-    /// The first slip or wall contact; another one than the first where contact 2–3 closes before it.
+    /// The first slip or wall contact; differs from the first event where contact 2–3 closes before it.
     pub last: Event,
-    /// When that comes.
+    /// The phase in which that occurs.
     pub last_stage: LoadingPhase,
 }
 
@@ -72,28 +72,28 @@ impl fmt::Display for Regime {
     }
 }
 
-/// Outcome of loading a stack until equilibrium ends.
+/// The outcome of loading a stack until equilibrium ends.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LoadingOutcome {
     /// The first event.
     pub first: CriticalState,
-    /// The first slip or wall contact; another one than the first event where contact 2–3 closes before it.
+    /// The first slip or wall contact; differs from the first event where contact 2–3 closes before it.
     pub last: CriticalState,
     /// Effect of the first event.
     pub failure_mode: FailureMode,
-    /// Where equilibrium ends; `None` where the stack does not stand, where the wall comes to rest on the
-    /// bottom cylinders, and where nobody knows. Later than `last` where that is a slip with c > 0.
+    /// Where equilibrium ends. `None` where the stack does not stand, where the wall comes to rest on the bottom
+    /// cylinders, and where the end is unknown. Later than `last` if that is a slip with c > 0.
     pub end: Option<CriticalState>,
-    /// Whether the end is known: no theory follows cylinders that slip on each other with c > 0 while their springs remember
-    /// how they have turned.
+    /// Whether the end is known: no theory covers cylinders that slip on each other with c > 0 while their springs
+    /// remember how they have turned.
     pub is_end_known: bool,
-    /// The largest force F that the stack carries, that at the end unless it softens before.
+    /// The largest force F that the stack carries: that at the end, unless the stack softens before.
     pub largest_force: Option<f64>,
 }
 
 impl LoadingOutcome {
-    /// Loads `stack` under the paper's arms and linear springs, which change by this rule as their contacts turn. `None` if its
-    /// path of equilibria ends before any event, and of spheres.
+    /// Loads `stack` with the paper's arms and linear springs that follow the rule `history_update`. `None` if the
+    /// path of equilibria ends before any event, and for spheres.
     ///
     /// ```
     /// use tristack_theory::model::{HistoryUpdate, Stack};
@@ -109,7 +109,7 @@ impl LoadingOutcome {
         Self::on(&EquilibriumPath::new(stack, history_update), stack)
     }
 
-    /// The same for a `stack` whose path is known.
+    /// Loads a `stack` whose path is known.
     pub fn on(path: &EquilibriumPath, stack: &Stack) -> Option<Self> {
         stack.refuse_spheres().ok()?;
         let (event, parameter) = last_event(path, stack)?;
@@ -121,7 +121,7 @@ impl LoadingOutcome {
             (Some(_), ..) | (_, LoadingPhase::OwnWeight, _) | (_, _, Event::WallContact) => None,
             _ => Some(last),
         };
-        // A stack that slips from the start and falls never gets to stand on a fifth contact.
+        // A stack that slips from the start and falls never comes to rest on a fifth contact.
         let falls_at_once = parameter == 0.0 && release.is_none_or(|end| end == Release::Falls);
         let closing = path.locate(Event::ContactCloses, stack);
         let closing = closing.filter(|&closing| closing <= parameter && !falls_at_once);
@@ -140,7 +140,7 @@ impl LoadingOutcome {
         })
     }
 
-    /// The region of the map that the stack belongs to.
+    /// The region of the map to which the stack belongs.
     pub fn regime(&self) -> Regime {
         Regime {
             first: self.first.event,
@@ -151,7 +151,7 @@ impl LoadingOutcome {
     }
 }
 
-/// Forces closer than this are the same: the quadrature behind them is exact to some units of round-off.
+/// Forces closer than this count as equal: the quadrature behind them is exact to a few units of round-off.
 const MAXIMUM_MARGIN: f64 = 1e-12;
 
 fn failure_mode(first: &CriticalState, softens: bool) -> FailureMode {
@@ -165,7 +165,7 @@ fn failure_mode(first: &CriticalState, softens: bool) -> FailureMode {
     }
 }
 
-/// The first slip or wall contact, and the parameter at which it comes.
+/// Returns the first slip or wall contact, and its parameter.
 fn last_event(path: &EquilibriumPath, stack: &Stack) -> Option<(Event, f64)> {
     let slips = [Event::FloorSlip, Event::CylinderSlip];
     let slips = slips.map(|event| path.locate(event, stack).map(|at| (event, at)));
@@ -180,8 +180,8 @@ fn last_event(path: &EquilibriumPath, stack: &Stack) -> Option<(Event, f64)> {
     candidates.min_by(|left, right| left.1.total_cmp(&right.1))
 }
 
-/// Where neither friction suffices from the start, the contact that lacks more of what it needs slides: it
-/// limits b = e to less than the other one can bear.
+/// Returns the contact that slides where neither friction suffices from the start: the one that falls further short of
+/// what it needs, since it limits b = e to less than the other one can carry.
 fn weaker_contact(path: &EquilibriumPath, stack: &Stack) -> Event {
     let point = path.point(path.beginning());
     let floor = stack.floor_friction / point.floor_ratio;

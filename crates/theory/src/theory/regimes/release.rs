@@ -8,30 +8,30 @@ use super::EquilibriumPath;
 use super::critical_state::{CriticalState, LoadingPhase};
 use crate::model::{CRITICAL_FRICTION, ContactConvention, Stack};
 
-/// Largest difference that the memory of springs makes to the frictions between which a stack is released, relative to them.
+/// Largest effect of the memory of springs on the frictions between which a stack is released, relative to these.
 const NEARBY: f64 = 0.1;
-/// Floor friction from which on the bottom cylinders of a very light stack touch: G₀ = ε/2 and T = μ_c in G₀ (T − μ) = ε μ.
-/// With as much, even the lightest part of the gravity ramp that is followed has them touch.
+/// Floor friction above which the bottom cylinders of a very light stack touch: G₀ = ε/2 and T = μ_c in G₀ (T − μ) = ε
+/// μ. With this friction they touch even in the lightest part of the gravity ramp that is followed.
 const LEAST_TO_TOUCH: f64 = CRITICAL_FRICTION / 3.0 * (1.0 + 1e-6);
 
 /// T − μ_c where the centre of cylinder 1 has sunk to the level of the other two, T = 1.
 const WIDEST: f64 = 1.0 - CRITICAL_FRICTION;
 
-/// How a stack ends that slips while c > 0, Eq. (R6).
+/// How the loading ends for a stack that slips while c > 0, Eq. (R6).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Release {
     /// Contact 2–3 opens before gravity is complete: the stack falls.
     Falls,
-    /// It opens under the wall, with the largest force.
+    /// The contact opens under the wall, with the largest force.
     Ends(CriticalState),
-    /// The wall reaches the bottom cylinders before.
+    /// The wall reaches the bottom cylinders before the contact opens.
     WallFirst,
-    /// Cylinders slip on each other whose springs remember how they have turned.
+    /// Unknown: cylinders slip on each other while their springs remember how they have turned.
     Unknown,
 }
 
 impl Release {
-    /// How `stack` ends that slips on its `path`: what slips, and the parameter at which it does.
+    /// How the loading ends for `stack`, which slips on its `path`: given are the event that slips, and its parameter.
     pub(super) fn of(stack: &Stack, path: &EquilibriumPath, (event, slip): (Event, f64)) -> Self {
         let Some((followed, convention)) = path.remembering() else {
             return Self::without_memory(stack, path.settled_height());
@@ -52,7 +52,7 @@ impl Release {
         }
     }
 
-    /// The same with springs that turn; `settled_height` is that of the top wall where it first touches.
+    /// The end with springs that turn; `settled_height` is the height of the top wall when it first touches.
     fn without_memory(stack: &Stack, settled_height: f64) -> Self {
         let (beyond, event) = slip_without_contact(stack);
         let epsilon = stack.epsilon();
@@ -77,10 +77,10 @@ impl Release {
     }
 }
 
-/// The two floor frictions between which a stack like this one has a yield force although it slips while
-/// c > 0: with less it falls under its own weight, with more the cylinders slip or the wall reaches the bottom
-/// ones. With springs that turn neither depends on κ. `None` if such a stack always falls, with springs that nothing turns if
-/// contact 2–3 does not close on its `path`, and of spheres.
+/// Returns the two floor frictions between which a stack like this one has a yield force although it slips while
+/// c > 0. With less, it falls under its own weight; with more, the cylinders slip or the wall reaches the bottom ones.
+/// With springs that turn, neither depends on κ. `None` for spheres, if such a stack always falls, and, with springs
+/// that do not turn, if contact 2–3 does not close on its `path`.
 pub fn released_frictions(path: &EquilibriumPath, stack: &Stack) -> Option<(f64, f64)> {
     stack.refuse_spheres().ok()?;
     let (low, high) = frictions_without_memory(stack)?;
@@ -102,7 +102,7 @@ pub fn released_frictions(path: &EquilibriumPath, stack: &Stack) -> Option<(f64,
     Some((low, high))
 }
 
-/// The sliding branch of `stack` from where its floor slips on the `path`.
+/// The sliding branch of `stack` from the slip of its floor on the `path`.
 fn remembered_branch<'a>(
     path: &'a FollowedPath,
     stack: &'a Stack,
@@ -112,13 +112,13 @@ fn remembered_branch<'a>(
     RememberedBranch::new(path, stack, convention, slip)
 }
 
-/// The floor friction near `guess` at which `margin` of stacks like `stack` vanishes.
+/// Returns the floor friction near `guess` at which `margin` vanishes for stacks like `stack`.
 fn beside(guess: f64, stack: &Stack, margin: impl Fn(&Stack) -> Option<f64>) -> Option<f64> {
     let range = [1.0 - NEARBY, 1.0 + NEARBY].map(|factor| factor * guess);
     between(range, stack, margin)
 }
 
-/// The same within a range of frictions.
+/// Returns the floor friction within a range at which `margin` vanishes for stacks like `stack`.
 fn between(
     [low, high]: [f64; 2],
     stack: &Stack,
@@ -134,7 +134,7 @@ fn between(
     bracketed_root(at, low, high)
 }
 
-/// The same with springs that turn.
+/// The frictions of [`released_frictions`] for springs that turn.
 fn frictions_without_memory(stack: &Stack) -> Option<(f64, f64)> {
     let epsilon = stack.epsilon();
     let needed = |beyond: f64| {
@@ -147,7 +147,7 @@ fn frictions_without_memory(stack: &Stack) -> Option<(f64, f64)> {
     (end > settled).then(|| (needed(settled), needed(end)))
 }
 
-/// The cylinder friction from which on the wall, not cylinder slip, ends a stack that slips while c > 0 on its `path`.
+/// The cylinder friction above which the wall, not cylinder slip, ends a stack that slips while c > 0 on its `path`.
 pub(crate) fn released_wall_friction(path: &EquilibriumPath, stack: &Stack) -> Option<f64> {
     let Some((followed, convention)) = path.remembering() else {
         return wall_contact(stack.epsilon()).map(|beyond| CRITICAL_FRICTION + beyond);
@@ -172,7 +172,7 @@ pub(crate) fn released_wall_friction(path: &EquilibriumPath, stack: &Stack) -> O
     Some(remembered_branch(path, &arriving, convention)?.needed_friction())
 }
 
-/// T − μ_c where the wall reaches the bottom cylinders just as these part.
+/// T − μ_c where the wall reaches the bottom cylinders just as these separate.
 fn wall_contact(epsilon: f64) -> Option<f64> {
     bracketed_root(|at| clearance(at, epsilon), 0.0, WIDEST)
 }
@@ -192,8 +192,8 @@ fn clearance(beyond: f64, epsilon: f64) -> f64 {
     (2.0 - overlap) * (1.0 - square) / (1.0 + square) - (2.0 * overlap - epsilon)
 }
 
-/// Where on G₀(T) the first friction is exhausted with c = 0, as T − μ_c, and which: G₀ (T − μ) = ε μ for the
-/// floor, T = μ_d for the cylinders.
+/// Returns where on G₀(T) a friction is first exhausted with c = 0, as T − μ_c, and the event: G₀ (T − μ) = ε μ for
+/// the floor, T = μ_d for the cylinders.
 fn slip_without_contact(stack: &Stack) -> (f64, Event) {
     let mu = stack.floor_friction;
     let excess = |beyond: f64| {
@@ -232,7 +232,7 @@ mod tests {
             panic!("it ends under the wall");
         };
         let square = end.tangent * end.tangent;
-        // y = 0: the distance of the cylinders is 1/sin ψ.
+        // y = 0: the distance between the centres of the cylinders is 1/sin ψ.
         let above = (1.0 - square) / (2.0 * end.tangent);
         let squeezed = stack.epsilon() * end.force;
         let height = (1.0 - end.floor_overlap) + above + (1.0 - squeezed);
@@ -251,7 +251,7 @@ mod tests {
             };
             let path = EquilibriumPath::new(&stack(0.3, 0.7, 0.9), rule);
             let wall = released_wall_friction(&path, &stack(0.3, 0.7, 0.9)).unwrap();
-            // Of the stack it takes neither friction.
+            // It depends on neither friction of the stack.
             let other = released_wall_friction(&path, &stack(0.1, 0.3, 0.9)).unwrap();
             assert!((wall - other).abs() < 1e-9, "{rule:?} {wall} {other}");
             let highest = |factor: f64| {

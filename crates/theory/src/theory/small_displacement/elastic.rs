@@ -22,20 +22,20 @@ pub struct ElasticRoot {
 }
 
 impl ElasticRoot {
-    /// The assumption behind the equation that the root contradicts.
+    /// A caution if the root contradicts the assumption c = 0 behind the equation.
     pub fn caution(&self) -> Option<&'static str> {
         let caution = "y < 0: the root contradicts the assumption c = 0 behind the equation";
         (self.y < 0.0).then_some(caution)
     }
 }
 
-/// Largest root z ≥ (n + 1) ε r/n of the elastic equation, with x, y and θ recovered from it; `None` if there
-/// is none.
+/// Returns the largest root z ≥ (n + 1) ε r/n of the elastic equation, with x, y and θ computed from it; `None` if
+/// there is none.
 ///
-/// Solved as h(α) = α 𝒟 ℰ = ε for the smallest α, measured from the point where 𝒟 vanishes so that
-/// stiff stacks keep all their digits. With T = μ/u the relations of appendix A become
-/// y = μ z (κ(1 − T²) − 1) and x = (1 + y/x₀) z u (1 + T²)(1 + κ(1 + T²))/2 − y cot ψ₀. A root with y ≤ −x₀ is
-/// one of the elimination alone: it would put cylinder 2 on the other side and breaks the equilibrium.
+/// The equation is solved as h(α) = α 𝒟 ℰ = ε for the smallest α, measured from the point where 𝒟 vanishes so that
+/// stiff stacks keep all their digits. With T = μ/u the relations of appendix A become y = μ z (κ(1 − T²) − 1) and x =
+/// (1 + y/x₀) z u (1 + T²)(1 + κ(1 + T²))/2 − y cot ψ₀. A root with y ≤ −x₀ is an artefact of the elimination: it
+/// would put cylinder 2 on the other side, and violates equilibrium.
 pub fn elastic_root(stack: &Stack) -> Option<ElasticRoot> {
     let root = eliminated_root(stack)?;
     (root.y > -stack.ring().radius).then_some(root)
@@ -48,7 +48,7 @@ fn eliminated_root(stack: &Stack) -> Option<ElasticRoot> {
     let ring = &stack.ring();
     let start = vanishing_alpha(ring, mu).max(0.0);
     let excess = |offset: f64| displacement_ratio(ring, mu, kappa, offset) - epsilon;
-    // α of F = 0; a root beyond it would need the wall to pull.
+    // α at F = 0; at a root beyond it the wall would have to pull.
     let highest = ring.bodies / stack.own_weight();
     let offset = first_crossing(excess, highest - start)?;
     let alpha = start + offset;
@@ -84,7 +84,7 @@ fn displacement_ratio(ring: &Ring, mu: f64, kappa: f64, offset: f64) -> f64 {
         / (mu * sum * (u_squared + kappa * sum))
 }
 
-/// Smallest root of `excess`, which is negative at 0, within (0, `end`].
+/// Returns the smallest root of `excess`, which is negative at 0, within (0, `end`].
 fn first_crossing(excess: impl Fn(f64) -> f64, end: f64) -> Option<f64> {
     if end <= 0.0 {
         return None;
@@ -165,7 +165,7 @@ mod tests {
 
     #[test]
     fn equilibrium_holds_to_round_off() {
-        // Some hundred roundings of numbers up to ten times the load d.
+        // Some hundred rounding errors of numbers up to ten times the load d.
         let round_off = 400.0 * f64::EPSILON;
         let stacks = grid().flat_map(|stack| (2..=5).map(move |bodies| Stack { bodies, ..stack }));
         for stack in stacks {

@@ -1,8 +1,8 @@
-//! The paper's theories: rigid cylinders, and elastic ones whose displacements are small.
+//! The paper's theories: rigid cylinders, and elastic ones with small displacements.
 //!
-//! Here α = ε r/z with the vertical displacement z of the bottom cylinders, and u = 1 − α. The load on
-//! the floor is F + 3 = 2 z/(ε r) = 2/α (paper, Eq. 7), so that F ≥ 0 means α ≤ 2/3. With n spheres below it is
-//! F + n + 1 = n/α, √3 becomes cot ψ₀, and 𝒟 is multiplied by x₀ (docs/theory.md, Eq. 103).
+//! Here α = ε r/z, where z is the vertical displacement of the bottom cylinders, and u = 1 − α. The load on the floor
+//! is F + 3 = 2 z/(ε r) = 2/α (paper, Eq. 7), so F ≥ 0 means α ≤ 2/3. With n spheres below, it is F + n + 1 = n/α, √3
+//! becomes cot ψ₀, and 𝒟 is multiplied by x₀ (docs/theory.md, Eq. 103).
 
 mod elastic;
 mod naive;

@@ -1,10 +1,10 @@
-//! The naive expansion of the displacement itself in powers of ε (paper, Eq. 13).
+//! The naive expansion: the displacement itself in powers of ε (paper, Eq. 13).
 
 use super::displacement_of_stiff_cylinders;
 use crate::model::Stack;
 
-/// F + n + 1 = n z/(ε r) to leading order in ε: μ_c/(μ_c − μ) ε below μ_c, its square root at μ_c, z⋆ above
-/// (paper, Eq. 13). `None` where it contradicts F ≥ 0.
+/// Returns F + n + 1 = n z/(ε r) to leading order in ε, where z is ε μ_c/(μ_c − μ) below μ_c, of order √ε at μ_c, and
+/// z⋆ above (paper, Eq. 13). `None` where this contradicts F ≥ 0.
 pub(crate) fn naive_load(stack: &Stack) -> Option<f64> {
     let (ring, mu) = (stack.ring(), stack.floor_friction);
     let critical = ring.critical_friction;

@@ -1,4 +1,4 @@
-//! The singular perturbation result of the paper: the equation expanded instead of its solution.
+//! The singular perturbation result of the paper, which expands the equation instead of its solution.
 
 use super::{displacement_of_stiff_cylinders, vanishing_alpha};
 use crate::model::Stack;
@@ -21,8 +21,8 @@ pub(crate) fn perturbation_load(stack: &Stack) -> Option<f64> {
 
 /// Φ(μ) = F(μ, max(0, 1 − μ/μ_c)) with F = ℰ(0) D + 𝒟(0) E + α D E (paper, Eqs. 15 and 16).
 ///
-/// The difference quotients D and E of 𝒟 and ℰ between α and 0 are written out with the factor α
-/// divided off by hand, so that nothing cancels as α → 0.
+/// The difference quotients D and E of 𝒟 and ℰ between α and 0 are written out with the factor α cancelled
+/// analytically, so that no digits are lost as α → 0.
 fn first_order_coefficient(stack: &Stack) -> f64 {
     let (mu, kappa) = (stack.floor_friction, stack.stiffness_ratio);
     let ring = stack.ring();

@@ -1,4 +1,4 @@
-//! The same root from the quintic (paper, Eq. 11), by the eigenvalues of its companion matrix.
+//! The root of the elastic equation from the quintic (paper, Eq. 11), by the eigenvalues of its companion matrix.
 
 #![cfg(test)]
 
@@ -9,11 +9,11 @@ use nalgebra::SMatrix;
 const REAL_ENOUGH: f64 = 1e-6;
 const POLISHING_STEPS: usize = 4;
 
-/// Largest real root z ≥ 3 ε r/2 of the quintic, in r.
+/// Returns the largest real root z ≥ 3 ε r/2 of the quintic, in r.
 ///
-/// Below μ_c the wanted root is of order ε while another one is of order 1, which would cost it its
-/// digits; there the eigenvalues are taken of the reversed polynomial, in α = ε/z. A few Newton steps
-/// remove the rounding of the eigenvalue iteration.
+/// Below μ_c the wanted root is of order ε while another one is of order 1, so it would lose its digits. There the
+/// eigenvalues are computed for the reversed polynomial, in α = ε/z. A few Newton steps remove the rounding errors of
+/// the eigenvalue iteration.
 pub fn quintic_displacement(stack: &Stack) -> Option<f64> {
     let epsilon = stack.epsilon();
     let in_z = quintic_coefficients(stack);
@@ -72,10 +72,10 @@ fn product(left: [f64; 3], right: [f64; 3]) -> [f64; 5] {
     result
 }
 
-/// Real roots of the polynomial with the given coefficients, lowest power first.
+/// Returns the real roots of the polynomial with the given coefficients, lowest power first.
 ///
-/// The variable is scaled so that the monic polynomial has coefficients of at most 1: near μ_c all roots
-/// are small, and unscaled they would drown in the rounding of the companion matrix.
+/// The variable is scaled so that the monic polynomial has coefficients of at most 1: near μ_c all roots are small,
+/// and without scaling they would be lost in the rounding errors of the companion matrix.
 fn real_roots(coefficients: &[f64; 6]) -> impl Iterator<Item = f64> {
     let leading = coefficients[5];
     let sizes = (1..=5).map(|back| {

@@ -5,14 +5,14 @@ use crate::model::Stack;
 /// Yield force of rigid bodies.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RigidYield {
-    /// f₀/(m g); absent where no force makes the stack slide.
+    /// f₀/(m g); absent where it diverges, since no force makes the stack slide.
     pub yield_force: Option<f64>,
     /// Whether the yield force is infinite, μ ≥ μ_c.
     pub diverges: bool,
 }
 
-/// f₀(μ)/(m g) = (3μ − μ_c)/(μ_c − μ) between μ_c/3 and μ_c, 0 below, infinite above (paper, Eq. 4), with n + 1 in place
-/// of 3 (docs/theory.md, Eq. 102).
+/// Returns f₀(μ)/(m g) = (3μ − μ_c)/(μ_c − μ) between μ_c/3 and μ_c; it is 0 below and infinite above (paper, Eq. 4).
+/// For n bodies on the floor, n + 1 replaces 3 (docs/theory.md, Eq. 102).
 ///
 /// ```
 /// use tristack_theory::model::Stack;

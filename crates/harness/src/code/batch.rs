@@ -1,4 +1,4 @@
-//! One process of an external code and its tasks: run directories, the run, outcomes and failures.
+//! A batch of tasks for one process of an external code: run directories, the run, outcomes and failures.
 
 use super::failure::{Failure, FailureKind};
 use super::installation::ExternalCode;
@@ -15,10 +15,10 @@ use std::path::{Path, PathBuf};
 use std::process::ExitStatus;
 use std::time::{Duration, Instant};
 
-/// The permissions of that home.
+/// Permissions of the home directory of the process.
 const PRIVATE: u32 = 0o700;
 
-/// Some tasks of one kind for one process.
+/// Tasks of one kind that one process carries out.
 pub(crate) struct Batch<'a, T: Task> {
     code: &'a ExternalCode,
     result: ResultFile,
@@ -35,7 +35,7 @@ pub(crate) struct Batch<'a, T: Task> {
 type Report<'a, T> = Finished<'a, (<T as Task>::Outcome, f64)>;
 
 impl<'a, T: Task> Batch<'a, T> {
-    /// `tasks`, at least one, for one process of `code`, in `directory`.
+    /// Creates the batch of `tasks`, at least one, for one process of `code` in `directory`.
     pub fn new(code: &'a ExternalCode, tasks: &'a [T], directory: PathBuf) -> Self {
         let task_directories: Vec<String> = match tasks {
             [_] => vec![".".to_owned()],
@@ -60,14 +60,14 @@ impl<'a, T: Task> Batch<'a, T> {
         last.map_or(0, |index| index + 1)
     }
 
-    /// Runs the process and reports tasks, at least the first one. A task that ends the process is reported as
-    /// failed; those after it are not reported.
+    /// Runs the process and reports at least the first task. A task that ends the process is reported as failed;
+    /// those after it are not reported.
     pub fn run(&mut self, context: &RunContext, report: Report<T>) {
         if context.interrupt.requested() {
             return self.interrupt_from(0, report);
         }
         if let Err(kind) = self.prepare() {
-            // Nothing may be read from directories that have not been cleared.
+            // Directories that have not been cleared must not be read.
             return self.fail(0, kind, report);
         }
         let outcome = self.run_process(context, report);
@@ -100,7 +100,7 @@ impl<'a, T: Task> Batch<'a, T> {
             for (name, content) in files.map_err(FailureKind::Unsupported)? {
                 write(&directory.join(name), content.as_bytes())?;
             }
-            // Files of an earlier run must not pass for results of this one.
+            // Files of an earlier run must not be mistaken for results of this one.
             for stale in self.code.program().logs.iter().chain([&self.result.file]) {
                 remove(&directory.join(stale))?;
             }
@@ -121,7 +121,7 @@ impl<'a, T: Task> Batch<'a, T> {
         let mut command: Vec<OsString> = command.into_iter().map(OsString::from).collect();
         command[0] = self.code.file.clone().into_os_string();
         let directory = self.directory.clone();
-        // A killed process may have left its home in a directory of the user.
+        // A killed process may have left its home behind in a directory of the user.
         remove_abandoned(&directory, HOME.as_ref());
         let (home, _lock) = locked_directory(&directory, HOME, PRIVATE)?;
         let job = Job {
@@ -144,7 +144,7 @@ impl<'a, T: Task> Batch<'a, T> {
         context.time_limit.unwrap_or(longest)
     }
 
-    /// Reports the tasks that have become complete; returns whether there was one.
+    /// Reports the tasks that have become complete; returns whether there were any.
     fn harvest(&mut self, report: Report<T>) -> bool {
         let complete = |index: &usize| !self.reported[*index] && self.is_complete(*index);
         let complete: Vec<usize> = (0..self.tasks.len()).filter(complete).collect();
@@ -170,7 +170,7 @@ impl<'a, T: Task> Batch<'a, T> {
         let directory = self.task_directory(index);
         let outcome = self.tasks[index].read_outcome(&directory, &self.result);
         let outcome = outcome.map_err(FailureKind::Series);
-        // A program that was replaced meanwhile may not be the one that ran.
+        // If the program was replaced meanwhile, another one may have run.
         let unchanged = self.code.check_unchanged();
         match outcome.and_then(|outcome| unchanged.map(|()| outcome)) {
             Ok(outcome) => {
@@ -210,7 +210,7 @@ impl<'a, T: Task> Batch<'a, T> {
     }
 }
 
-/// Writes a file of a task, which may lie in a folder of its own.
+/// Writes a file of a task and creates its folder if necessary.
 fn write(path: &Path, content: &[u8]) -> Result<(), FailureKind> {
     let folder = path.parent().map_or(Ok(()), fs::create_dir_all);
     let written = folder.and_then(|()| create_anew(path)?.write_all(content));

@@ -1,4 +1,4 @@
-//! A code that is installed and does not work. Recorded runs do not stand in for it: every task fails.
+//! A code that is installed but does not work. Recorded runs do not stand in for it: every task fails.
 
 use super::described::Code;
 use super::failure::{Failure, FailureKind};
@@ -9,10 +9,10 @@ use crate::model::{Case, ContactTest, Pyramid, shown};
 use crate::series::{Motion, PyramidRun};
 use std::path::Path;
 
-/// Its version in tables.
+/// The version that tables show.
 const BROKEN: &str = "broken";
 
-/// A code whose program does not answer the question for its version.
+/// A code whose program does not tell its version.
 pub(crate) struct BrokenCode {
     name: Code,
     identity: Identity,
@@ -20,7 +20,7 @@ pub(crate) struct BrokenCode {
 }
 
 impl BrokenCode {
-    /// The code `name` whose program in `file` has failed with `kind` when it was asked for its version.
+    /// Creates the code `name`, whose program in `file` failed with `kind` when asked for its version.
     pub fn new(name: Code, file: &Path, kind: &FailureKind) -> Self {
         let what = match kind {
             FailureKind::TimedOut(limit) => format!("gave no answer within {limit:?}"),

@@ -1,4 +1,4 @@
-//! Captured output of a program: the beginning and the end.
+//! Captures the beginning and the end of a program's output.
 
 use std::collections::VecDeque;
 use std::io::{Read, Write};
@@ -7,14 +7,14 @@ use std::sync::mpsc::{Receiver, channel};
 const HEAD_BYTES: u64 = 1 << 20;
 const TAIL_BYTES: usize = 1 << 16;
 
-/// Copies a pipe to `output` on a thread of its own, and hands `output` back once the copy is complete.
+/// Copies a pipe to `output` on a separate thread, which sends `output` back once the copy is complete.
 pub(super) fn capture<W: Write + Send + 'static>(
     mut pipe: impl Read + Send + 'static,
     mut output: W,
 ) -> Receiver<W> {
     let (sender, copied) = channel();
     std::thread::spawn(move || {
-        // Output that cannot be written is dropped: a program is judged by its series.
+        // Output that cannot be written is dropped, because a program is judged by its series.
         if copy(&mut pipe, &mut output).is_err() {
             let _ = std::io::copy(&mut pipe, &mut std::io::sink());
         }
@@ -23,7 +23,7 @@ pub(super) fn capture<W: Write + Send + 'static>(
     copied
 }
 
-/// Copies the first bytes at once and the last ones at the end, with a note on how many are left out between them.
+/// Copies the first bytes at once and the last ones at the end, with a note on how many were left out between them.
 fn copy(mut pipe: impl Read, output: &mut impl Write) -> std::io::Result<()> {
     std::io::copy(&mut pipe.by_ref().take(HEAD_BYTES), output)?;
     let mut tail = VecDeque::new();

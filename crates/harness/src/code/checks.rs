@@ -1,4 +1,4 @@
-//! What the types of a manifest do not say: the values that are accepted.
+//! Checks of a manifest that its types cannot express: which values are accepted.
 
 use super::definition::{DECK, DIRECTORIES};
 use super::format::ResultFormat;
@@ -23,7 +23,7 @@ impl Definition {
         self.check_command()
     }
 
-    /// Refuses texts that do not show in tables as they are.
+    /// Refuses texts that tables cannot show as they are.
     fn check_texts(&self) -> Result<(), InvalidValue> {
         let label = self.label.as_deref().unwrap_or_default();
         for (key, text) in [
@@ -41,8 +41,8 @@ impl Definition {
         Ok(())
     }
 
-    /// Refuses files outside the folder or the run directory, and decks that would overwrite parameters, results or
-    /// logs.
+    /// Refuses files outside the folder or the run directory, decks that would overwrite parameters, results or logs,
+    /// a `{deck}` that stands for no file, and a task `pyramid` without logs in the format `lammps-thermo`.
     fn check_files(&self) -> Result<(), InvalidValue> {
         let written = self.written_files();
         let outside = |(_, name): &&(String, &str)| !stays_inside(name);
@@ -76,7 +76,7 @@ impl Definition {
         Ok(())
     }
 
-    /// The files that tristack and the code write into a run directory, each with its key.
+    /// Lists the files that tristack and the code write into a run directory, each with its key in the manifest.
     fn written_files(&self) -> Vec<(String, &str)> {
         let logs = self.program.iter().flat_map(|program| &program.logs);
         let logs = logs.map(|name| ("program.logs".to_owned(), name.as_str()));
@@ -91,7 +91,7 @@ impl Definition {
         common.into_iter().chain(logs).chain(results).collect()
     }
 
-    /// Refuses factors that give no number back.
+    /// Refuses factors that are 0 or not finite, and any factor for the step.
     fn check_columns(&self) -> Result<(), InvalidValue> {
         let common = self.result.columns.iter();
         let common = common.map(|(name, source)| (format!("result.columns.{name}"), name, source));
@@ -115,7 +115,8 @@ impl Definition {
         Ok(())
     }
 
-    /// Refuses a command with an unknown placeholder, and directories for its program that are not definite.
+    /// Refuses a program without a task `stack`, an empty command or one with an unknown placeholder, and directories
+    /// for the program that depend on where tristack is started.
     fn check_command(&self) -> Result<(), InvalidValue> {
         let Some(program) = &self.program else {
             return Ok(());
@@ -143,13 +144,13 @@ impl Definition {
 }
 
 impl TaskKind {
-    /// The path of a key of this task.
+    /// Returns the full path of a key in the table of this task.
     pub(super) fn key(self, name: &str) -> String {
         format!("tasks.{}.{name}", self.as_str())
     }
 }
 
-/// Whether a path names something below the directory it starts from.
+/// Whether a path is relative and stays below its starting directory.
 pub(super) fn stays_inside(path: &str) -> bool {
     let mut parts = Path::new(path).components().peekable();
     parts.peek().is_some() && parts.all(|part| matches!(part, Component::Normal(_)))

@@ -1,4 +1,4 @@
-//! The columns of a result under other names, as a manifest writes them: `wall_force = "f_top"`, or with a factor
+//! Columns of a result under other names, as a manifest writes them: `wall_force = "f_top"`, or with a factor
 //! `floor_n2 = { from = "fn2", factor = -1.0 }`.
 
 use crate::model::PAPER_BODIES;
@@ -11,7 +11,7 @@ use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::fmt;
 
-/// Bodies on the floor of the stack with most columns.
+/// Number of bodies on the floor of the stack with the most columns.
 const SPHERES: u8 = 5;
 
 /// Reads columns, whose names must be those of a series or a motion.
@@ -46,7 +46,7 @@ impl<'de> Deserialize<'de> for Name {
         if known.contains(&name.as_str()) {
             return Ok(Self(name));
         }
-        // In the words of serde, which does not take a list that is made here.
+        // In serde's words; its own constructor takes only static lists of names.
         let known = known.join("`, `");
         Err(Error::custom(format!(
             "unknown field `{name}`, expected one of `{known}`"

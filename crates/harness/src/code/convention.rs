@@ -3,7 +3,7 @@
 use crate::model::{Arms, ContactConvention};
 use toml::de::DeTable;
 
-/// A key of a manifest on the convention of a code, which the probe measures where it is left out.
+/// A key of a manifest on the convention of a code. Where the manifest leaves it out, the probe measures it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum ConventionKey {
     /// `convention.pair.torque_arm`.
@@ -51,7 +51,7 @@ impl ConventionKey {
         Self::FloorKinematicArm,
     ];
 
-    /// The key with its tables, separated by points.
+    /// Returns the key with its tables, separated by dots.
     pub fn as_str(self) -> &'static str {
         match self {
             Self::PairTorqueArm => "convention.pair.torque_arm",
@@ -67,13 +67,14 @@ impl ConventionKey {
         }
     }
 
-    /// Whether any value of it moves the quasi-static limit, as those of the arms do (docs/theory.md, section 2.3). Of the rules
-    /// for a turning spring one alone does, which the probe tells by a property of its own ([`Unknown::moves_limit`]).
+    /// Whether every value of the key moves the quasi-static limit, as for the arms (docs/theory.md, section 2.3). Of
+    /// the rules for a turning spring only one does; the probe recognises it by a separate property
+    /// ([`Unknown::moves_limit`]).
     pub fn moves_limit(self) -> bool {
         Self::ARMS.contains(&self)
     }
 
-    /// Puts `value` into the coefficient of `arms` that it names, if it names one.
+    /// Sets the coefficient of `arms` that the key names, if it names one, to `value`.
     pub fn set_arm(self, arms: &mut Arms, value: f64) {
         match self {
             Self::PairTorqueArm => arms.pair.torque = value,
@@ -84,7 +85,7 @@ impl ConventionKey {
         }
     }
 
-    /// The coefficient of `arms` that it names; `None` if it names none.
+    /// Returns the coefficient of `arms` that the key names; `None` if it names none.
     pub fn arm(self, arms: &Arms) -> Option<f64> {
         Some(match self {
             Self::PairTorqueArm => arms.pair.torque,
@@ -95,7 +96,7 @@ impl ConventionKey {
         })
     }
 
-    /// Puts its value in `from` into `into`; a key of the integration is in neither.
+    /// Copies the value of the key from `from` into `into`. Keys of the integration are in neither.
     pub(super) fn copy(self, from: &ContactConvention, into: &mut ContactConvention) {
         match self {
             Self::CoulombOperand => into.coulomb_operand = from.coulomb_operand,
@@ -111,8 +112,8 @@ impl ConventionKey {
         }
     }
 
-    /// The keys that `manifest` leaves out. A kinematic arm is declared with the torque arm, which it is where it is not
-    /// written.
+    /// Lists the keys that `manifest` leaves out. A kinematic arm counts as declared where the torque arm is, since
+    /// it defaults to the torque arm.
     pub(super) fn left_out_of(manifest: &DeTable) -> Vec<Self> {
         let keys = Self::ALL.into_iter();
         let left_out = keys.filter(|key| match key {
@@ -143,18 +144,18 @@ impl std::fmt::Display for ConventionKey {
 /// The properties that a manifest declares and the probe measures.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Declaration {
-    /// The contact convention, with the paper's values for the keys that are left out. Micro-tests are asked for under
-    /// it, whatever they show.
+    /// The contact convention, with the paper's values for the keys that are left out. Micro-tests are always asked
+    /// for under it, whatever they show.
     pub convention: ContactConvention,
     /// Steps by which reported velocities lag behind reported positions.
     pub velocity_lag: f64,
-    /// The keys that are left out, which are unknown until they are measured.
+    /// The keys that the manifest leaves out; they are unknown until they are measured.
     pub left_out: Vec<ConventionKey>,
     /// Whether the code moves spheres in space.
     pub in_space: bool,
 }
 
-/// The convention of a code after its probe: what its manifest declares, and what was measured in place of the rest.
+/// The convention of a code after its probe: what its manifest declares, and what was measured for the rest.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Settled {
     /// The contact convention. Keys that are still unknown have the paper's values.
@@ -163,28 +164,28 @@ pub struct Settled {
     pub velocity_lag: f64,
     /// Uncertainties of the arm coefficients: 0 for those that are declared.
     pub arm_uncertainty: Arms,
-    /// The same of the moment of inertia.
+    /// Uncertainty of the moment of inertia: 0 if it is declared.
     pub inertia_uncertainty: f64,
-    /// The same of the velocity lag.
+    /// Uncertainty of the velocity lag: 0 if it is declared.
     pub lag_uncertainty: f64,
-    /// The keys that are left out and that the probe does not decide.
+    /// The keys that the manifest leaves out and the probe does not decide.
     pub unknown: Vec<Unknown>,
 }
 
-/// A key that a manifest leaves out and that no probe decides.
+/// A key that a manifest leaves out and no probe decides.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Unknown {
     /// The key.
     pub key: ConventionKey,
     /// Why it is not known.
     pub because: String,
-    /// Whether the quasi-static limit depends on what is not known of it: on any arm, and on whether a spring turns with its
-    /// contact, but not on the rule by which it does.
+    /// Whether the quasi-static limit depends on what is unknown about the key. It depends on any arm, and on whether
+    /// a spring turns with its contact, but not on the rule by which the spring turns.
     pub moves_limit: bool,
 }
 
 impl Unknown {
-    /// A `key` of which nothing is known, `because` of something.
+    /// Creates the entry for a `key` about which nothing is known, `because` of the given reason.
     pub fn new(key: ConventionKey, because: String) -> Self {
         Self {
             key,
@@ -193,7 +194,7 @@ impl Unknown {
         }
     }
 
-    /// Whether the limit depends on it, in words.
+    /// Says in words whether the yield force depends on it.
     pub fn matters(&self) -> &'static str {
         match self.moves_limit {
             true => "the yield force depends on it",
@@ -203,7 +204,7 @@ impl Unknown {
 }
 
 impl Settled {
-    /// The value of `key`, as a manifest spells it, without quotation marks.
+    /// Returns the value of `key` as a manifest spells it, without quotation marks.
     pub fn value(&self, key: ConventionKey) -> String {
         let path = key.as_str().strip_prefix("convention.");
         let path = path.map(|path| format!("/{}", path.replace('.', "/")));
@@ -216,7 +217,7 @@ impl Settled {
         }
     }
 
-    /// The value of `key` if that is a number.
+    /// Returns the value of `key` if it is a number.
     pub fn number(&self, key: ConventionKey) -> Option<f64> {
         match key {
             ConventionKey::MomentOfInertia => Some(self.convention.moment_of_inertia),
@@ -225,7 +226,7 @@ impl Settled {
         }
     }
 
-    /// The uncertainty of that number.
+    /// Returns the uncertainty of `key` if its value is a number.
     pub fn uncertainty(&self, key: ConventionKey) -> Option<f64> {
         match key {
             ConventionKey::MomentOfInertia => Some(self.inertia_uncertainty),
@@ -234,7 +235,7 @@ impl Settled {
         }
     }
 
-    /// The uncertainties of the arms if any of them was measured.
+    /// Returns the uncertainties of the arms if any of them was measured.
     pub fn measured_arms(&self) -> Option<Arms> {
         (self.arm_uncertainty != Arms::PAPER).then_some(self.arm_uncertainty)
     }
@@ -245,18 +246,18 @@ impl Settled {
         arms.filter_map(|key| key.arm(&self.arm_uncertainty)).sum()
     }
 
-    /// Whether it is known if springs turn with their contacts.
+    /// Whether it is known that springs turn with their contacts, or that they do not.
     pub fn knows_turning(&self) -> bool {
         let is_open = |own: &Unknown| own.key == ConventionKey::HistoryUpdate && own.moves_limit;
         !self.unknown.iter().any(is_open)
     }
 
-    /// Whether everything is known that the quasi-static limit depends on.
+    /// Whether everything is known on which the quasi-static limit depends.
     pub fn knows_limit(&self) -> bool {
         !self.unknown.iter().any(|own| own.moves_limit)
     }
 
-    /// Why `key` is unknown; `None` where it is not.
+    /// Returns why `key` is unknown; `None` if it is known.
     pub fn reason(&self, key: ConventionKey) -> Option<&str> {
         let mut unknown = self.unknown.iter();
         unknown.find_map(|own| (own.key == key).then_some(own.because.as_str()))
@@ -264,8 +265,8 @@ impl Settled {
 }
 
 impl Declaration {
-    /// The convention of a code that has not been probed, `because` of something: the keys that are left out are
-    /// unknown.
+    /// Returns the convention of a code that has not been probed, `because` of the given reason: the keys that are
+    /// left out are unknown.
     pub fn unsettled(&self, because: &str) -> Settled {
         let unknown = self.left_out.iter();
         Settled {

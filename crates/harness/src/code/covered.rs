@@ -17,16 +17,16 @@ use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 /// Longest script that is searched for names, in bytes.
 const LONGEST_SCRIPT: u64 = 1 << 20;
-/// Most modules in a directory; one with more is not a directory of modules.
+/// Most modules in a directory of modules; a directory with more is ignored.
 const MOST_MODULES: usize = 5000;
 const MOST_LEVELS: usize = 8;
 
-/// Identity of a file's content without reading it: device, number, size, and when it last changed.
+/// Identifies a file's content without reading it: device, inode number, size, and time of the last change.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Stamp([i64; 5]);
 
 impl Stamp {
-    /// The stamp of the file at `path`, links followed; `None` if there is none.
+    /// Returns the stamp of the file at `path`, following links; `None` if there is none.
     pub(super) fn of(path: &Path) -> Option<Self> {
         let data = std::fs::metadata(path).ok()?;
         let place = [data.dev() as i64, data.ino() as i64, data.size() as i64];
@@ -36,17 +36,17 @@ impl Stamp {
     }
 }
 
-/// The files that decide what a program computes, with their content as it was when they were found.
+/// The files that decide what a program computes, with digests and stamps from when they were found.
 #[derive(Debug, Clone, Default)]
 pub(super) struct CoveredFiles {
-    /// SHA-256 of each.
+    /// SHA-256 of each file.
     hashes: BTreeMap<PathBuf, String>,
     stamps: Vec<(PathBuf, Stamp)>,
 }
 
 impl CoveredFiles {
-    /// The files behind `program`, which gets `words` as arguments in its `environment`, and `decks` to read. An
-    /// interpreter of Python is given what decks import from its packages.
+    /// Finds the files behind `program`, which gets `words` as arguments in its `environment`, and `decks` to read.
+    /// For a Python interpreter, they include what decks import from its packages.
     pub fn of<'a>(
         program: &Path,
         words: &[String],
@@ -93,38 +93,38 @@ impl CoveredFiles {
         }
     }
 
-    /// SHA-256 of `path`, if it is among them.
+    /// Returns the SHA-256 of `path` if it is covered.
     pub fn hash(&self, path: &Path) -> Option<&String> {
         self.hashes.get(path)
     }
 
-    /// One SHA-256 for all of them, places and contents.
+    /// Returns one SHA-256 over the paths and contents of all files.
     pub fn digest(&self) -> String {
         let lines = self.hashes.iter();
         let lines = lines.map(|(path, hash)| format!("{hash}  {path:?}\n"));
         sha256_hex(lines.collect::<String>().as_bytes())
     }
 
-    /// One of them that has changed since it was read.
+    /// Returns one of the files that has changed since it was read.
     pub fn changed(&self) -> Option<&PathBuf> {
         let mut stamps = self.stamps.iter();
         let changed = stamps.find(|(path, stamp)| Stamp::of(path) != Some(*stamp));
         changed.map(|(path, _)| path)
     }
 
-    /// The number of files, and how many of them are shared libraries.
+    /// Returns the number of files, and how many of them are shared libraries.
     pub fn counts(&self) -> (usize, usize) {
         let libraries = self.hashes.keys().filter(|path| is_library(path));
         (self.hashes.len(), libraries.count())
     }
 }
 
-/// Largest program or library that is read, in bytes.
+/// Size limit for programs and libraries, in bytes.
 const LARGEST_PROGRAM: u64 = 1 << 32;
 
 type Hashes = BTreeMap<(PathBuf, Stamp), Arc<OnceLock<Option<String>>>>;
 
-/// SHA-256 of a file; one that has not changed is read once, since several codes share libraries.
+/// Returns the SHA-256 of a file. An unchanged file is read once, since several codes share libraries.
 fn hash_of(path: &Path, stamp: Stamp) -> Option<String> {
     static KNOWN: Mutex<Hashes> = Mutex::new(BTreeMap::new());
     let hash = {
@@ -138,14 +138,14 @@ fn hash_of(path: &Path, stamp: Stamp) -> Option<String> {
     hash.get_or_init(read).clone()
 }
 
-/// The files that were found, and those in which more may be named.
+/// The files found so far, and the loaders and packages that lead to more.
 #[derive(Default)]
 struct Search {
     files: BTreeSet<PathBuf>,
     libraries: BTreeSet<PathBuf>,
-    /// Programs with the loader that each of them names.
+    /// Programs, each with the loader that it names.
     loaders: Vec<(PathBuf, PathBuf)>,
-    /// The packages beside the interpreters of Python that were found.
+    /// The packages beside the Python interpreters that were found.
     packages: Packages,
 }
 
@@ -185,11 +185,11 @@ impl Search {
             return self.add_python(path, text);
         }
         self.add_shell(path, text);
-        // Where the path of an interpreter is too long, a shell hands the script on to it.
+        // Where the interpreter's path is too long for the first line, a shell hands the script on to it.
         self.add_imports(Path::new(""), text);
     }
 
-    /// Adds programs that a shell script names, by path, in the search path, or beside it.
+    /// Adds programs that a shell script names by path, or by a name in the search path or beside it.
     fn add_shell(&mut self, script: &Path, text: &str) {
         for word in words(text) {
             self.add_named(script, word);
@@ -201,7 +201,8 @@ impl Search {
         }
     }
 
-    /// Adds what a `word` of a script names by its path, or by its name in the directory of the script.
+    /// Adds the file that a `word` of a script names by an absolute path, or by its name in the directory of the
+    /// script.
     fn add_named(&mut self, script: &Path, word: &str) {
         let path = Path::new(word);
         let beside = script.parent().map(|parent| parent.join(file_name(word)));
@@ -220,8 +221,8 @@ impl Search {
         }
     }
 
-    /// Adds modules that a Python script or module imports from its own directory, and those in directories that it
-    /// names.
+    /// Adds files and directories of modules that a Python script or module names by path, and the modules that it
+    /// imports.
     fn add_python(&mut self, script: &Path, text: &str) {
         for word in words(text).filter(|word| word.starts_with('/')) {
             self.add_named(script, word);
@@ -232,8 +233,8 @@ impl Search {
         self.add_imports(script.parent().unwrap_or(Path::new("")), text);
     }
 
-    /// Adds modules that a Python `text` imports from `directory`, if that is given, and packages that it imports from
-    /// those of its interpreter.
+    /// Adds modules that a Python `text` imports from `directory`, unless that is empty, and from the packages of its
+    /// interpreter.
     fn add_imports(&mut self, directory: &Path, text: &str) {
         let own = (directory != Path::new("")).then(|| directory.to_owned());
         let places: Vec<PathBuf> = own.into_iter().chain(self.packages.places()).collect();
@@ -280,7 +281,8 @@ impl Search {
     }
 }
 
-/// Collects modules, extensions and programs; returns whether there are few enough.
+/// Collects modules, extensions and programs down to `levels` below `directory`; returns whether there are few
+/// enough.
 fn modules_below(directory: &Path, levels: usize, found: &mut Vec<PathBuf>) -> bool {
     let entries = std::fs::read_dir(directory).into_iter().flatten().flatten();
     for entry in entries {
@@ -309,7 +311,7 @@ fn is_module_directory(directory: &Path) -> bool {
     })
 }
 
-/// The words of a script, without its punctuation, each of them once.
+/// Returns the distinct words of a script without its punctuation.
 fn words(text: &str) -> impl Iterator<Item = &str> {
     let words =
         text.split(|char: char| char.is_whitespace() || "\"'`;(){}[]=,:&|<>$".contains(char));
@@ -335,18 +337,18 @@ fn is_module(path: &Path) -> bool {
     path.extension().is_some_and(|end| end == "py")
 }
 
-/// Whether it is one of the files that scripts read and execute.
+/// Whether scripts may load or execute the file: a Python module, a shell script or a library.
 fn is_source(path: &Path) -> bool {
     let name = path.file_name().unwrap_or_default().to_string_lossy();
     name.ends_with(".py") || name.ends_with(".sh") || is_library(path)
 }
 
-/// The content of a script, or the head of a program.
+/// Reads the content of a script, or the head of a program.
 fn beginning(path: &Path) -> Vec<u8> {
     read_beginning(path, LONGEST_SCRIPT).unwrap_or_default()
 }
 
-/// The loader that an ELF program names (PT_INTERP of its program headers), of 64 bits and little-endian.
+/// Returns the loader that a 64-bit little-endian ELF program names (PT_INTERP of its program headers).
 fn loader_in(program: &[u8]) -> Option<PathBuf> {
     const INTERPRETER: u64 = 3;
     if !program.starts_with(b"\x7fELF\x02\x01") {
@@ -373,7 +375,7 @@ fn loader_in(program: &[u8]) -> Option<PathBuf> {
     Some(PathBuf::from(name.trim_end_matches('\0')))
 }
 
-/// The libraries that `loader` maps for `program` and for `extensions` that are loaded into it.
+/// Lists the libraries that `loader` maps for `program` and for `extensions` that are loaded into it.
 fn mapped_by_loader(
     loader: &Path,
     program: &Path,
@@ -408,7 +410,7 @@ mod tests {
         fs::set_permissions(path, fs::Permissions::from_mode(mode)).unwrap();
     }
 
-    /// A virtual environment with a package whose module starts a program beside it.
+    /// Creates a virtual environment with a package whose module starts a program beside it.
     fn environment() -> tempfile::TempDir {
         let place = tempfile::tempdir().unwrap();
         let at = |name: &str| place.path().join(name);
@@ -433,7 +435,7 @@ mod tests {
         own.map(|path| file_name(&path.to_string_lossy())).collect()
     }
 
-    /// As pip writes it, or where the path of the interpreter is too long for the first line.
+    /// The script is as pip writes it: as usual, and where the interpreter's path is too long for the first line.
     #[test]
     fn a_script_of_a_virtual_environment_is_covered_with_the_package_that_it_starts() {
         let place = environment();

@@ -12,16 +12,17 @@ use std::path::Path;
 use std::time::Duration;
 use toml::de::DeTable;
 
-/// Placeholders that every command knows.
+/// Placeholders that every command accepts.
 pub(super) const DECK: &str = "{deck}";
 pub(super) const DIRECTORIES: &str = "{directories}";
-/// About twenty times the slowest start and the slowest step of a stack that were measured.
+/// Time limits for a start and a step of a stack, about twenty times the slowest that were measured; a code whose
+/// manifest gives longer durations has more.
 pub(super) const LONGEST_START: Duration = Duration::from_secs(30);
 const LONGEST_STEP: Duration = Duration::from_micros(100);
 const SAFETY: f64 = 20.0;
 
 impl TaskKind {
-    /// The task that compresses `stack` after `preparation`.
+    /// Returns the kind of the task that compresses `stack` after `preparation`.
     pub(super) fn of(stack: &Stack, preparation: &Preparation) -> Self {
         match preparation {
             _ if stack.bodies != PAPER_BODIES => Self::Spheres,
@@ -32,7 +33,7 @@ impl TaskKind {
 }
 
 impl Definition {
-    /// The codes that the folder at `path` describes, one a variant, in the order of their names.
+    /// Reads the codes that the folder at `path` describes, one per variant, in the order of their names.
     pub fn read(path: &Path) -> Result<Vec<Self>, ManifestError> {
         Self::read_folder(Folder::Disk(path.to_owned()))
     }
@@ -40,7 +41,7 @@ impl Definition {
     pub(super) fn read_folder(folder: Folder) -> Result<Vec<Self>, ManifestError> {
         let layers = Layers::read(folder)?;
         let merged = layers.merged()?;
-        // What all variants share is read for itself, since its errors concern no variant.
+        // What all variants share is read by itself first, since its errors concern no variant.
         let common: Self = layers.read_as(merged.clone())?;
         let codes = layers.codes(merged).into_iter();
         let codes = codes.map(|code| Self::of_code(code, &common.name, &layers));
@@ -56,7 +57,7 @@ impl Definition {
         Ok(definition)
     }
 
-    /// Checks what the types cannot, and reads the files of the tasks.
+    /// Checks what the types cannot, fills in defaults, and reads the files of the tasks.
     fn finish(&mut self, family: &str, layers: &Layers) -> Result<(), InvalidValue> {
         self.check()?;
         for kind in &self.without {
@@ -113,7 +114,7 @@ impl Definition {
         command.into_iter().any(|word| word == DIRECTORIES)
     }
 
-    /// Program and arguments that carry out the tasks in `directories`.
+    /// Returns the program and the arguments that carry out the tasks in `directories`.
     pub(super) fn command(&self, kind: TaskKind, directories: &[String]) -> Vec<String> {
         let task = self.tasks.get(&kind);
         let deck = task.and_then(|task| task.files.first());
@@ -127,7 +128,7 @@ impl Definition {
             .collect()
     }
 
-    /// Files of a task, by name and content.
+    /// Returns the files of a task by name and content.
     pub(super) fn files(&self, kind: TaskKind) -> impl Iterator<Item = (&str, &[u8])> {
         let task = self.tasks.get(&kind).into_iter();
         task.flat_map(|task| {
@@ -163,7 +164,7 @@ impl Definition {
         result
     }
 
-    /// About how many seconds a task of `steps` steps takes.
+    /// Estimates how many seconds a task of `steps` steps takes.
     pub(super) fn forecast(&self, steps: u64) -> f64 {
         self.seconds.start + self.seconds.step * steps as f64
     }

@@ -22,13 +22,13 @@ pub struct Code(Arc<Described>);
 #[derive(Clone)]
 struct Described {
     definition: Definition,
-    /// Its place among the codes of this program; behind them for one that was given by path.
+    /// Its place among the codes of this program; codes given by path come after them.
     place: usize,
     /// The folder that it was read from; absent for a code of this program.
     folder: Option<PathBuf>,
     /// The variants of its folder that come before it.
     earlier: Vec<Code>,
-    /// How many of the codes before it choose no mark either.
+    /// Number of codes before it whose manifests choose no mark.
     turn: usize,
 }
 
@@ -59,7 +59,8 @@ impl Code {
         BUILT_IN_CODES.clone()
     }
 
-    /// Those of them whose normal force grows with this power of the overlap; that of the native code with any.
+    /// Returns the codes of this program whose normal force grows with this power of the overlap; that of the native
+    /// code may grow with any.
     pub fn of_power(power: Power) -> Vec<Self> {
         let mut codes = Self::built_in();
         codes.retain(|code| code.has_power(power));
@@ -77,7 +78,8 @@ impl Code {
         codes.find(|code| code.as_str() == name).cloned()
     }
 
-    /// The codes of `definitions`, which are all of one folder: at `path`, or of this program from `place` on.
+    /// Makes the codes of `definitions`, all from one folder: the one at `path`, or one of this program, whose first
+    /// code gets `place`.
     fn of_folder(definitions: Vec<Definition>, place: usize, path: Option<&Path>) -> Vec<Self> {
         let mut codes = Vec::new();
         for (index, definition) in definitions.into_iter().enumerate() {
@@ -93,10 +95,10 @@ impl Code {
         codes
     }
 
-    /// The codes in `folder`, in the order of their names.
+    /// Reads the codes in `folder`, in the order of their names.
     ///
     /// # Errors
-    /// If the folder describes no code, or one whose name is that of a code of this program.
+    /// If the folder describes no code, one without a program, or one with the name of a code of this program.
     pub fn all_in_folder(folder: &Path) -> Result<Vec<Self>, ManifestError> {
         let place = folder.canonicalize().unwrap_or_else(|_| folder.to_owned());
         let read = Definition::read(folder)?;
@@ -113,10 +115,10 @@ impl Code {
         Ok(Self::of_folder(read, usize::MAX, Some(&place)))
     }
 
-    /// `codes` in the order of tables, each once; those whose manifests choose no mark get one in turn.
+    /// Returns `codes` in the order of tables, each once. Codes whose manifests choose no mark get one in turn.
     ///
     /// # Errors
-    /// If two of them have the same name, by which tables tell them apart.
+    /// If two of them have the same name, because tables tell codes apart by name.
     pub fn side_by_side(codes: &[Self]) -> Result<Vec<Self>, ManifestError> {
         let mut beside: Vec<Self> = Vec::new();
         let mut turn = 0;
@@ -133,14 +135,14 @@ impl Code {
         Ok(beside)
     }
 
-    /// The different ones among `codes`, in the order of tables.
+    /// Returns the distinct `codes`, in the order of tables.
     pub fn distinct<'a>(codes: impl IntoIterator<Item = &'a Self>) -> Vec<Self> {
         let codes: BTreeSet<&Self> = codes.into_iter().collect();
         codes.into_iter().cloned().collect()
     }
 
-    /// The code in `folder` that has the `name`; without a name the only one, or the one that is named like the
-    /// manifest.
+    /// Returns the code in `folder` with the given `name`. Without a name, returns the only code, or the one that is
+    /// named like the manifest.
     ///
     /// # Errors
     /// If the folder describes no such code, or a code whose name is taken.
@@ -201,7 +203,7 @@ impl Code {
         self.0.turn
     }
 
-    /// Whether it is the first variant of its folder, which stands for the others where one is enough.
+    /// Whether it is the first variant of its folder, which represents the others where one is enough.
     pub fn is_first_variant(&self) -> bool {
         self.0.earlier.is_empty()
     }
@@ -215,12 +217,12 @@ impl Code {
         })
     }
 
-    /// Its contact law, which every manifest declares; native, which accepts any, has the paper's as its default.
+    /// Its contact law, which every manifest declares. The native code accepts any law; its default is the paper's.
     pub fn law(&self) -> Law {
         self.definition().convention.law
     }
 
-    /// Properties of its time integration, of which the velocity lag may be left out ([`Self::declaration`]).
+    /// Properties of its time integration. The velocity lag may be left out ([`Self::declaration`]).
     pub(crate) fn integration(&self) -> Integration {
         self.definition().integration
     }
@@ -241,13 +243,13 @@ impl Code {
         self.0.folder.is_none()
     }
 
-    /// Whether the convention is part of the case rather than of the code.
+    /// Whether the convention belongs to the case rather than to the code.
     pub fn accepts_any_convention(&self) -> bool {
         self.is_native()
     }
 
-    /// Refuses a convention that contradicts the declaration of the code. The keys that its manifest leaves out may be
-    /// anything, and the restitution is a parameter of every code.
+    /// Refuses a convention that contradicts the declaration of the code. The keys that its manifest leaves out may
+    /// have any value. The restitution is a parameter of every code; some of its values may be refused.
     pub(crate) fn check_declared(&self, asked: &ContactConvention) -> Result<(), InvalidValue> {
         if self.accepts_any_convention() {
             return Ok(());
@@ -269,7 +271,7 @@ impl Code {
         self.refuse_difference(asked, &own)
     }
 
-    /// Refuses a convention that is not the code's `own`.
+    /// Refuses a convention that differs from the code's `own`.
     pub(super) fn refuse_difference(
         &self,
         asked: &ContactConvention,
@@ -341,7 +343,7 @@ impl Code {
         self.is_native()
     }
 
-    /// Refuses shortcuts, if they are `asked` for, of a code that has none.
+    /// Refuses shortcuts, if they are `asked` for, where the code has none.
     pub fn check_shortcuts(&self, asked: bool) -> Result<(), InvalidValue> {
         if !asked || self.takes_shortcuts() {
             return Ok(());
@@ -358,12 +360,12 @@ impl Code {
         }
     }
 
-    /// Duration of a step of the stack in seconds, about: for forecasts of the time that is left.
+    /// Approximate duration of a step of the stack in seconds, for forecasts of the time that is left.
     pub fn seconds_per_step(&self) -> f64 {
         self.definition().seconds.step
     }
 
-    /// Duration of a start in seconds, about.
+    /// Approximate duration of a start in seconds.
     pub(crate) fn start_seconds(&self) -> f64 {
         self.definition().seconds.start
     }
@@ -378,12 +380,12 @@ impl Code {
         self.0.folder.as_deref()
     }
 
-    /// Whether an external program computes.
+    /// Whether it runs an external program.
     pub fn has_program(&self) -> bool {
         self.definition().program.is_some()
     }
 
-    /// Instructions for installing it; without any, where its program is looked for.
+    /// Instructions for installing it; if there are none, where its program is looked for.
     pub fn installation_hint(&self) -> String {
         let definition = self.definition();
         if !definition.install.is_empty() {
@@ -411,7 +413,7 @@ impl Code {
     }
 }
 
-/// Why the name of `definition` is refused.
+/// Returns the refusal of `definition`, whose name another code has.
 fn taken(definition: &Definition) -> ManifestError {
     let message = format!(
         "`name` is {}; accepted is a name that no other code has",
@@ -421,7 +423,7 @@ fn taken(definition: &Definition) -> ManifestError {
 }
 
 impl Code {
-    /// What tells it from every other code, in the order of tables.
+    /// Returns what distinguishes it from every other code, in the order of tables.
     fn key(&self) -> (usize, &str, Option<&Path>) {
         (self.0.place, self.as_str(), self.folder())
     }

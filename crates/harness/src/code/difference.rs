@@ -2,7 +2,7 @@
 
 use crate::model::ContactConvention;
 
-/// The first key in which a convention is not the `other`, with both values.
+/// Returns the first key in which `own` differs from `other`, with both values.
 pub(super) fn difference(
     own: &ContactConvention,
     other: &ContactConvention,

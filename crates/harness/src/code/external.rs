@@ -1,4 +1,4 @@
-//! The interface of an installed external code, whose program is given its tasks in batches.
+//! An installed external code, whose program gets its tasks in batches.
 
 use super::batch::Batch;
 use super::described::Code;
@@ -19,8 +19,8 @@ fn same_deck(left: &Case, right: &Case) -> bool {
 }
 
 impl ExternalCode {
-    /// Carries out the `tasks` in `range`, all of one kind, in order, as many at once as the code can; if
-    /// `all_or_nothing`, only up to the first failure.
+    /// Carries out the `tasks` in `range`, all of one kind, in order, as many at once as the code can. With
+    /// `all_or_nothing`, stops at the first failure.
     fn carry_out<T: Task>(
         &self,
         tasks: &[T],
@@ -51,7 +51,7 @@ impl ExternalCode {
         }
     }
 
-    /// The outcomes of `tasks`, in order, or the first failure.
+    /// Returns the outcomes of `tasks` in order, or the first failure.
     fn outcomes<T: Task>(
         &self,
         tasks: &[T],
@@ -80,7 +80,7 @@ impl ExternalCode {
         }
     }
 
-    /// Refuses a case that the code has no deck for.
+    /// Refuses a case that needs a deck or shortcuts which the code does not have.
     fn check_case(&self, case: &Case) -> Result<(), InvalidValue> {
         let shortened = case.protocol.shortcuts.is_some();
         self.name.check_shortcuts(shortened)?;
@@ -112,7 +112,7 @@ impl InstalledCode for ExternalCode {
         }
     }
 
-    /// Runs those that share a deck together.
+    /// Runs successive cases that share a deck together.
     fn run(&self, cases: &[Case], context: &RunContext, finished: Finished<Run>) {
         let mut start = 0;
         for same in cases.chunk_by(same_deck) {

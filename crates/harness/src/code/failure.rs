@@ -20,10 +20,10 @@ pub enum FailureKind {
     RunDirectory(#[from] FileError),
     #[error("cannot start the program: {0}")]
     Start(#[from] std::io::Error),
-    /// The program is installed and does not work.
+    /// The program is installed but does not work.
     #[error("{0}")]
     Broken(String),
-    /// It is no longer the one whose version and hash were taken at the start.
+    /// The program is no longer the one whose version and hash were taken at the start.
     #[error("{} was replaced while it was in use; start again", shown(.0))]
     Replaced(PathBuf),
     #[error("the program ended without a series: {0}")]
@@ -45,10 +45,10 @@ pub enum FailureKind {
     /// A run that is made elsewhere has no result yet.
     #[error("{} is not there yet", shown(.0))]
     Awaited(PathBuf),
-    /// A run that is made elsewhere has a part of a result, or one of something else than was planned.
+    /// A run that is made elsewhere has part of a result, or the result of something other than what was planned.
     #[error("{0}")]
     NoResult(String),
-    /// A result that was made elsewhere is there, and is not what was asked for.
+    /// A result that was made elsewhere is there, but it is not what was asked for.
     #[error("the result is not usable: {0}")]
     UnusableFile(FileError),
 }

@@ -5,22 +5,22 @@ use std::io::{Error, ErrorKind};
 use std::path::{Path, PathBuf};
 use toml::Table;
 
-/// The file of a folder that describes its codes.
+/// The file that describes the codes of a folder.
 pub(super) const MANIFEST: &str = "code.toml";
-/// Largest file of a folder that is read, in bytes; a mesh may be long.
+/// Size limit for files of a folder, in bytes; a mesh may be long.
 const LARGEST_FILE: u64 = 1 << 26;
 
 /// A folder that is part of this program: its name in the project, and its files.
 pub(super) type BuiltIn = (&'static str, &'static [(&'static str, &'static str)]);
 
-/// The files of a folder, named from the top of the project; links in the top of the crate lead to them.
+/// Embeds the files of a folder, named from the top of the project. Links at the top of the crate lead to them.
 macro_rules! folder {
     ($folder:literal, $($file:literal)+) => {
         ($folder, &[$(($file, include_str!(concat!("../../", $folder, "/", $file)))),+])
     };
 }
 
-/// The folder of the native code, which has no files but its manifest.
+/// The folder of the native code; its only file is the manifest.
 const NATIVE: BuiltIn = (
     "crates/harness/src/code/native",
     &[("code.toml", include_str!("native/code.toml"))],
@@ -62,7 +62,7 @@ impl Folder {
         BUILT_IN.iter().skip(1).flat_map(names_in).collect()
     }
 
-    /// The folder at `path`, which may be relative to this one; none beside a built-in folder.
+    /// Returns the folder at `path`, which may be relative to this one; `None` for a built-in folder.
     pub fn at(&self, path: &str) -> Option<Self> {
         match self {
             Self::BuiltIn(_) => None,
@@ -70,7 +70,7 @@ impl Folder {
         }
     }
 
-    /// Its path: in the project for a built-in one.
+    /// Its path; for a built-in one, the path in the project.
     pub fn path(&self) -> &Path {
         match self {
             Self::BuiltIn((path, _)) => Path::new(path),
@@ -81,7 +81,7 @@ impl Folder {
     /// The content of one of its files.
     ///
     /// # Errors
-    /// Whatever the system says; `NotFound` if a built-in folder has no such file.
+    /// Any error of the system; `NotFound` if a built-in folder has no such file.
     pub fn read(&self, name: &str) -> std::io::Result<Vec<u8>> {
         match self {
             Self::BuiltIn((_, files)) => {
@@ -94,7 +94,7 @@ impl Folder {
     }
 }
 
-/// The names of the codes in a built-in folder: its own, if it has no variants that take its place, and theirs.
+/// Returns the names of the codes in a built-in folder: those of its variants, or its own if it has none.
 fn names_in((_, files): &BuiltIn) -> Vec<String> {
     let manifest = files.iter().find(|(name, _)| *name == MANIFEST);
     let table: Table = manifest

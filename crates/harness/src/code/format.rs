@@ -7,7 +7,7 @@ use crate::series::{
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-/// LIGGGHTS cuts the words of a header to so many characters.
+/// LIGGGHTS cuts the words of a header to this many characters.
 const CUT: usize = 8;
 
 /// How the parameters of a task are written.
@@ -23,7 +23,7 @@ pub enum ParameterFormat {
 }
 
 impl ParameterFormat {
-    /// The content of the file for `parameters`, an object of numbers.
+    /// Formats `parameters`, an object of numbers, as the content of their file.
     pub fn content(self, parameters: &serde_json::Value) -> String {
         let (before, between) = match self {
             Self::Json => return format!("{parameters:#}\n"),
@@ -48,7 +48,7 @@ pub enum ResultFormat {
 }
 
 impl ResultFormat {
-    /// The series of `case` in a result file, of which some columns may be others.
+    /// Reads the series of `case` from a result file, in which columns may have other names and factors (`sources`).
     pub fn series(
         self,
         content: &[u8],
@@ -65,7 +65,8 @@ impl ResultFormat {
         }
     }
 
-    /// The motion of a micro-test in a result file, of which some columns may be others.
+    /// Reads the motion of a micro-test from a result file, in which columns may have other names and factors
+    /// (`sources`).
     pub fn motion(
         self,
         content: &[u8],
@@ -83,8 +84,8 @@ impl ResultFormat {
     }
 }
 
-/// The rows of the last table in `log` with these `columns`, from its header to `Loop time`, and the names of the
-/// columns that it leaves out.
+/// Returns the rows of the last table in `log` with these `columns`, from its header to `Loop time`, and the names of
+/// the columns that it lacks.
 fn last_table<R: Default>(
     log: &[u8],
     columns: &'static [Column<R>],
@@ -111,7 +112,7 @@ fn last_table<R: Default>(
     Ok((rows, header.absent()))
 }
 
-/// The words of a header without the `v_` of variables.
+/// Splits a header into words, without the `v_` of variables.
 fn header_words(line: &str) -> Vec<&str> {
     let words = line.split_whitespace();
     words
@@ -129,7 +130,7 @@ fn parse_row<R: Default>(header: &Header<R>, row: usize, line: &str) -> Result<R
     parsed.map_err(|error| SeriesError::garbled(row, format!("{error} in `{line}`")))
 }
 
-/// The run of `pyramid` in the log and the dump of centres that LAMMPS or LIGGGHTS leaves behind.
+/// Reads the run of `pyramid` from the log and the dump of centres that LAMMPS or LIGGGHTS leaves behind.
 ///
 /// # Errors
 /// If the log has no loop time, or the dump does not hold the cylinders of the pyramid.
@@ -143,7 +144,7 @@ pub fn pyramid_in_log(
     PyramidRun::new(centres, seconds, pyramid.cylinder_count())
 }
 
-/// Seconds in `Loop time of 0.4218 on 1 procs for 2000 steps with 990 atoms`.
+/// Parses the seconds in the last line like `Loop time of 0.4218 on 1 procs for 2000 steps with 990 atoms`.
 fn last_loop_time(log: &str) -> Result<f64, SeriesError> {
     let mut times = log
         .lines()
@@ -154,7 +155,7 @@ fn last_loop_time(log: &str) -> Result<f64, SeriesError> {
         .ok_or_else(|| SeriesError::absent("the log has no loop time"))
 }
 
-/// The rows `id x y`, in the order of the ids 1, 2, ….
+/// Parses the rows `id x y`, which must be in the order of the ids 1, 2, ….
 fn centres(dump: &str) -> Result<Vec<[f64; 2]>, SeriesError> {
     let mut rows = dump
         .lines()

@@ -1,4 +1,4 @@
-//! Everything that a deck needs to carry out a task, so that nothing has to be derived: units, bodies, contacts, steps and
+//! Everything that a deck needs to carry out a task without deriving anything: units, bodies, contacts, steps and
 //! starting positions. Each number is declared once.
 
 use super::manifest::TaskKind;
@@ -6,7 +6,7 @@ use super::parameters::{self, merged};
 use crate::model::{Case, ContactConvention, ContactTest, PAPER_BODIES, PreparationSteps, Pyramid};
 use serde_json::{Map, Value, json};
 
-/// Raised when a parameter goes or changes its meaning.
+/// Raised when a parameter is removed or changes its meaning.
 const SCHEMA: u32 = 1;
 
 /// A named number of a task.
@@ -26,13 +26,13 @@ pub struct Parameter {
 pub enum When {
     /// Always.
     Every,
-    /// With every law but the paper's linear one.
+    /// With every law except the paper's linear one.
     NotLinear,
-    /// With Hertz's, at a stiffness ratio from 1 to 1.5.
+    /// With Hertz's law, at a stiffness ratio from 1 to 1.5.
     Material,
     /// In stacks of five spheres or more.
     FiveSpheres,
-    /// In stacks of six.
+    /// In stacks of six spheres.
     SixSpheres,
 }
 

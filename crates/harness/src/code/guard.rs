@@ -1,4 +1,4 @@
-//! The guard: a process of tristack between it and an external program.
+//! The guard: a process of tristack that stands between it and an external program.
 //!
 //! A guard lives as long as the external program and its descendants, and kills them when tristack ends for any
 //! reason, `kill -9` included. It also limits their memory and files, and shuts them off from the network where the
@@ -24,7 +24,7 @@ use std::time::Duration;
 
 /// The command of `tristack` that runs a guard.
 pub const COMMAND: &str = "guard";
-/// Its flag for a program without a network.
+/// Its flag that runs the program without a network.
 const OFFLINE: &str = "--offline";
 const THIS_PROGRAM: &str = "/proc/self/exe";
 
@@ -40,7 +40,8 @@ pub fn guard_foreign_programs() {
     GUARDED.store(true, Ordering::SeqCst);
 }
 
-/// Words before the command of an external program. The link leads to this program even after its file was replaced.
+/// Returns the words before the command of an external program. The link leads to this program even after its file
+/// was replaced.
 pub(super) fn prefix() -> Vec<&'static OsStr> {
     let words: &[&str] = match GUARDED.load(Ordering::SeqCst) {
         false => &[],
@@ -50,7 +51,7 @@ pub(super) fn prefix() -> Vec<&'static OsStr> {
     words.iter().map(OsStr::new).collect()
 }
 
-/// Whether the system lets this user leave the network. A process of its own tries, because that cannot be undone.
+/// Whether the system lets this user leave the network. A separate process tries, because that cannot be undone.
 static MAY_LEAVE_NETWORK: LazyLock<bool> = LazyLock::new(|| {
     let mut guard = Command::new(THIS_PROGRAM);
     guard.args([COMMAND, OFFLINE, "--", THIS_PROGRAM, "--version"]);
@@ -81,7 +82,7 @@ pub fn guard(command: &[OsString], offline: bool) -> std::io::Result<ExitStatus>
         .spawn()?;
     let program = Pid::from_raw(child.id() as i32);
     std::thread::spawn(move || {
-        // Nothing is ever written: this waits until the other side closes.
+        // Nothing is ever written to standard input: the read returns when the other side closes.
         let _ = std::io::stdin().read(&mut [0]);
         let _ = kill(program, Signal::SIGKILL);
     });
@@ -94,27 +95,27 @@ pub fn guard(command: &[OsString], offline: bool) -> std::io::Result<ExitStatus>
 /// the external program ended.
 pub fn end_like(status: ExitStatus) -> i32 {
     if let Some(signal) = status.signal().and_then(|it| Signal::try_from(it).ok()) {
-        // The first may only remove the handler of the runtime.
+        // The first signal may only remove the handler of the runtime.
         let _ = raise(signal);
         let _ = raise(signal);
     }
-    // The code by which a shell reports a signal, for one that this program ignores.
+    // For a signal that this program ignores: the code by which a shell reports it.
     let signal = status.signal().unwrap_or_default();
     status.code().unwrap_or(128 + signal)
 }
 
-/// Allows no more than `most`, and no more than is allowed already.
+/// Limits `resource` to `most`, or to what is allowed already if that is less.
 fn limit(resource: Resource, most: u64) -> std::io::Result<()> {
     let (_, allowed) = getrlimit(resource)?;
     let most = most.min(allowed);
     Ok(setrlimit(resource, most, most)?)
 }
 
-/// Moves to a network of its own, in which there is nothing but a loopback interface.
+/// Moves this process to a separate network, which has only a loopback interface.
 fn leave_network() -> std::io::Result<()> {
     let (user, group) = (getuid(), getgid());
     if unshare(CloneFlags::CLONE_NEWNET).is_err() {
-        // Only the owner of a user name space may do that, and every user may create one.
+        // Only the owner of a user namespace may do that, and every user may create one.
         unshare(CloneFlags::CLONE_NEWUSER | CloneFlags::CLONE_NEWNET)?;
         std::fs::write("/proc/self/setgroups", "deny")?;
         std::fs::write("/proc/self/uid_map", format!("{user} {user} 1"))?;
@@ -123,7 +124,7 @@ fn leave_network() -> std::io::Result<()> {
     start_loopback()
 }
 
-/// Asks the kernel to bring up interface 1, which is the loopback: some codes do not start without one.
+/// Asks the kernel to bring up interface 1, the loopback: some codes do not start without one.
 fn start_loopback() -> std::io::Result<()> {
     const NEW_LINK: u16 = 16;
     const REQUEST: u16 = 1;

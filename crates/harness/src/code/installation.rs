@@ -31,9 +31,9 @@ pub(crate) struct ExternalCode {
 }
 
 impl ExternalCode {
-    /// The code `name` with the program `word`, looked for where the manifest says. The package manager or the program itself is
-    /// asked for the version; a program that gives no answer within [`LONGEST_START`], or is ended by a signal, is
-    /// broken: its runs would be kept under a wrong name.
+    /// Finds the program `word` of the code `name` where the manifest says, and asks the package manager or the
+    /// program itself for the version. A program that gives no answer within [`LONGEST_START`], or is ended by a
+    /// signal, is broken: its runs would be kept under a wrong name.
     pub fn find(name: &Code, word: &str) -> Option<Box<dyn InstalledCode>> {
         let program = name.definition().program.as_ref()?;
         let directories = program
@@ -86,13 +86,13 @@ impl ExternalCode {
         program.expect("a code without a program is not looked for")
     }
 
-    /// Refuses a program that has been replaced, or of which a file has, since it was found.
+    /// Refuses the program if it, or a file that it depends on, has been replaced since it was found.
     pub fn check_unchanged(&self) -> Result<(), FailureKind> {
         let changed = self.covered.changed().cloned();
         changed.map_or(Ok(()), |path| Err(FailureKind::Replaced(path)))
     }
 
-    /// What the identity covers and what it does not.
+    /// Says what the identity covers and what it does not.
     pub fn described_coverage(&self) -> String {
         let (files, libraries) = self.covered.counts();
         let witness = match &self.identity.witness {
@@ -111,7 +111,7 @@ impl ExternalCode {
         )
     }
 
-    /// Program and arguments that carry out tasks of one kind in `directories`.
+    /// Returns the program and the arguments that carry out tasks of one kind in `directories`.
     pub fn command(&self, kind: TaskKind, directories: &[String]) -> Vec<String> {
         let mut command = self.definition().command(kind, directories);
         command[0].clone_from(&self.word);
@@ -119,7 +119,7 @@ impl ExternalCode {
     }
 }
 
-/// The version of the program in `file`, and the package that it belongs to.
+/// Determines the version of the program in `file`, and the package that it belongs to.
 fn identify(file: &Path, program: &Program) -> Result<(String, Option<String>), FailureKind> {
     let question = &program.version;
     let package = owning_package(file)?;
@@ -133,7 +133,7 @@ fn identify(file: &Path, program: &Program) -> Result<(String, Option<String>), 
     ))
 }
 
-/// Debian package and version that the program, links followed, belongs to.
+/// Returns the name and the version of the Debian package that owns the program, links followed.
 fn owning_package(program: &Path) -> Result<Option<(String, String)>, FailureKind> {
     let ask = |arguments: Vec<OsString>| {
         let mut command = vec![OsString::from("dpkg-query")];
@@ -178,8 +178,8 @@ fn own_version(
     Ok(version_in_answer(&text, &question.before))
 }
 
-/// The version in the `answer` of a program: its first line from behind `before` to a comma; `unknown` if nothing
-/// there is readable.
+/// Extracts the version from the `answer` of a program: the first line that is not blank, from after `before` up to a
+/// comma; `unknown` if nothing there is readable.
 pub fn version_in_answer(answer: &str, before: &str) -> String {
     let first = answer.lines().find(|line| !line.trim().is_empty());
     let line = first.unwrap_or_default().trim();

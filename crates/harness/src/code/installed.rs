@@ -12,11 +12,11 @@ use std::time::{Duration, Instant};
 /// The conditions under which runs are made.
 #[derive(Clone, Copy)]
 pub struct RunContext<'a> {
-    /// Directory in which every case gets a run directory of its own.
+    /// Directory in which every case gets its own run directory.
     pub directory: &'a Path,
     /// Directory for checkpoints of unfinished runs; `None` to keep none.
     pub checkpoints: Option<&'a Path>,
-    /// Whether to begin anew, whatever checkpoints there are.
+    /// Whether to begin anew and ignore checkpoints.
     pub fresh: bool,
     /// Longest time without a finished case; the code's own estimate if absent.
     pub time_limit: Option<Duration>,
@@ -27,7 +27,7 @@ pub struct RunContext<'a> {
 }
 
 impl<'a> RunContext<'a> {
-    /// Runs in `directory`, without checkpoints, time limit or progress.
+    /// Returns the context for runs in `directory`, without checkpoints, time limit or progress.
     pub fn new(directory: &'a Path, interrupt: &'a Interrupt) -> Self {
         Self {
             directory,
@@ -39,27 +39,27 @@ impl<'a> RunContext<'a> {
         }
     }
 
-    /// The time limit, if it has passed since `start`.
+    /// Returns the time limit if it has passed since `start`.
     pub(super) fn late_since(&self, start: Instant) -> Option<Duration> {
         self.time_limit.filter(|&limit| start.elapsed() > limit)
     }
 }
 
-/// The distribution of cases over calls with which a code is fastest.
+/// How cases are distributed over calls so that a code is fastest.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Batching {
-    /// A call for each case.
+    /// One call per case.
     OneCallACase,
-    /// A call for each core that the code gets, because starting takes longer than running.
+    /// One call per core that the code gets, because starting takes longer than running.
     FewCalls,
-    /// A call for each core, because the cases of a call share vector instructions.
+    /// One call per core, because the cases of a call share vector instructions.
     OneCallACore,
 }
 
 /// Receives each result, with the index of its task, as soon as it is available.
 pub type Finished<'a, T> = &'a mut dyn FnMut(usize, Result<T, Failure>);
 
-/// A code that is installed here.
+/// A code that is installed on this machine.
 pub trait InstalledCode: Send + Sync {
     /// The name of the code.
     fn name(&self) -> &Code;
@@ -67,7 +67,7 @@ pub trait InstalledCode: Send + Sync {
     /// The program behind its numbers.
     fn identity(&self) -> &Identity;
 
-    /// Why it is installed, but does not work, if so.
+    /// Why it does not work although it is installed; `None` if it works.
     fn broken(&self) -> Option<&str> {
         None
     }
@@ -82,7 +82,7 @@ pub trait InstalledCode: Send + Sync {
         "the sources of this program".to_owned()
     }
 
-    /// Whether a compression that is cut short goes on, at its next start, from where it was.
+    /// Whether a compression that was cut short continues, at its next start, from where it was.
     fn keeps_checkpoints(&self) -> bool {
         false
     }
@@ -90,19 +90,18 @@ pub trait InstalledCode: Send + Sync {
     /// The distribution of cases over calls.
     fn batching(&self) -> Batching;
 
-    /// Compresses the stacks of `cases`, and hands each result to `finished`. A failure does not keep the others from
-    /// running.
+    /// Compresses the stacks of `cases` and hands each result to `finished`. A failure does not stop the others.
     fn run(&self, cases: &[Case], context: &RunContext, finished: Finished<Run>);
 
-    /// The motions of micro-tests, in order, or the first failure.
+    /// Carries out micro-tests and returns their motions in order, or the first failure.
     fn probe(
         &self,
         tests: &[ContactTest],
         context: &RunContext,
     ) -> Result<Vec<Motion>, Box<Failure>>;
 
-    /// The runs of pyramids, in order, or the first failure: the code may not build pyramids, or not with this
-    /// convention.
+    /// Carries out the runs of pyramids and returns them in order, or the first failure: the code may not build
+    /// pyramids, or not with this convention.
     fn build(
         &self,
         pyramids: &[Pyramid],

@@ -21,7 +21,7 @@ struct Limit {
 }
 
 impl Interrupt {
-    /// No request yet, and no limit.
+    /// Returns an interrupt without a request or a limit.
     pub const fn new() -> Self {
         Self {
             by_user: AtomicBool::new(false),
@@ -41,8 +41,8 @@ impl Interrupt {
         self.time_is_up.swap(true, Ordering::SeqCst)
     }
 
-    /// Requests a stop as soon as the time `whole` has passed since `start`. The first limit stays; returns whether it
-    /// is this one.
+    /// Requests a stop as soon as the time `whole` has passed since `start`. Only the first limit counts; returns
+    /// whether this is the first.
     pub fn limit(&self, start: Instant, whole: Duration) -> bool {
         let end = start.checked_add(whole);
         end.is_some_and(|end| self.limit.set(Limit { end, whole }).is_ok())
@@ -58,13 +58,13 @@ impl Interrupt {
         self.is_out_of_time() && !self.by_user.load(Ordering::SeqCst)
     }
 
-    /// The time left, and the time that there was in the beginning; `None` without a limit.
+    /// Returns the time left and the whole time allowed; `None` without a limit.
     pub(crate) fn time_left(&self) -> Option<(Duration, Duration)> {
         let Limit { end, whole } = self.limit.get()?;
         Some((end.saturating_duration_since(Instant::now()), *whole))
     }
 
-    /// Notes that work has begun whose result is kept: another start of the same command does not repeat it.
+    /// Notes that work whose result is kept has begun: another start of the same command does not repeat it.
     pub(crate) fn begin(&self) {
         self.has_begun.store(true, Ordering::SeqCst);
     }

@@ -12,9 +12,9 @@ use toml::de::{DeTable, DeValue};
 
 /// The version of the keys.
 const SCHEMA: &str = "1";
-/// More manifests than this that extend one another are a circle.
+/// Most manifests in a chain of extensions; a longer chain is taken for a circle.
 const MOST_LAYERS: usize = 8;
-/// The keys that say what a code is called, which is not inherited, and those that concern one manifest alone.
+/// Keys that are not inherited: they say what a code is called, or concern one manifest alone.
 const OWN_KEYS: [&str; 9] = [
     "schema", "name", "title", "label", "style", "install", "mark", "extends", "variants",
 ];
@@ -22,9 +22,9 @@ const OWN_KEYS: [&str; 9] = [
 /// One manifest.
 struct Layer {
     folder: Folder,
-    /// The code of its folder whose keys are taken.
+    /// The code of its folder whose keys are inherited, if one is named.
     variant: Option<String>,
-    /// Its text behind as many blanks as all texts before it are long: so the places in all texts differ.
+    /// Its text after as many blanks as all texts before it are long, so that no two texts share a place.
     text: String,
     start: usize,
 }
@@ -33,7 +33,7 @@ struct Layer {
 pub(super) struct Layers(Vec<Layer>);
 
 impl Layers {
-    /// Reads the manifest of `folder`, and those that it extends.
+    /// Reads the manifest of `folder` and those that it extends.
     pub fn read(folder: Folder) -> Result<Self, ManifestError> {
         let mut layers = Self(Vec::new());
         layers.add(folder, None)?;
@@ -69,7 +69,7 @@ impl Layers {
         self.check_schema()
     }
 
-    /// Refuses another version of the keys in the last manifest.
+    /// Refuses the last manifest if its keys have another version or none.
     fn check_schema(&self) -> Result<(), ManifestError> {
         let table = self.table(self.0.len() - 1)?;
         match table.get("schema").map(Spanned::get_ref) {
@@ -92,7 +92,7 @@ impl Layers {
         &self.0[self.0.len() - 1]
     }
 
-    /// The value of `extends` in the last manifest, with the folder and the code there that it names.
+    /// Returns the value of `extends` in the last manifest, with the folder that it names and the code there.
     #[allow(clippy::type_complexity)] // It has one use.
     fn next_base(
         &self,
@@ -128,7 +128,7 @@ impl Layers {
         }
     }
 
-    /// The keys of a manifest.
+    /// Parses the keys of a manifest.
     fn table(&self, layer: usize) -> Result<DeTable<'_>, ManifestError> {
         let parsed = DeTable::parse(&self.0[layer].text);
         let parsed = parsed.map_err(|error| {
@@ -138,7 +138,7 @@ impl Layers {
         Ok(parsed?.into_inner())
     }
 
-    /// The keys of the manifest, with those that it inherits.
+    /// Returns the keys of the manifest, with those that it inherits.
     pub fn merged(&self) -> Result<DeTable<'_>, ManifestError> {
         let mut merged = DeTable::new();
         for layer in (1..self.0.len()).rev() {
@@ -148,8 +148,8 @@ impl Layers {
         Ok(merged)
     }
 
-    /// The keys that others inherit from a manifest: those of the code that was named, or of the only one, or of the one
-    /// that is named like the manifest.
+    /// Returns the keys that others inherit from a manifest: those of the code that was named or, without a name,
+    /// those of the only code or of the one named like the manifest.
     fn inherited(&self, layer: usize) -> Result<DeTable<'_>, ManifestError> {
         let mut table = self.table(layer)?;
         let own = table.get("name").and_then(|name| name.get_ref().as_str());
@@ -178,7 +178,8 @@ impl Layers {
         Ok(table)
     }
 
-    /// One set of keys a variant, whose keys override those of `merged`; `merged` itself if there are none.
+    /// Returns one set of keys per variant, whose keys override those of `merged`; `merged` itself if there are no
+    /// variants.
     pub fn codes<'i>(&self, merged: DeTable<'i>) -> Vec<DeTable<'i>> {
         let mut common = merged;
         let variants = variants(&mut common);
@@ -201,7 +202,7 @@ impl Layers {
         codes.collect()
     }
 
-    /// `table` as a value.
+    /// Reads `table` as a `T`; errors name the place and the key.
     pub fn read_as<'i, T: Deserialize<'i>>(&self, table: DeTable<'i>) -> Result<T, ManifestError> {
         let root = Spanned::new(0..0, table.clone());
         T::deserialize(toml::Deserializer::from(root)).map_err(|error| {
@@ -212,12 +213,12 @@ impl Layers {
         })
     }
 
-    /// The error about an `invalid` value in `table`, with its place.
+    /// Returns the error about an `invalid` value in `table`, with its place.
     pub fn invalid(&self, table: &DeTable, invalid: &InvalidValue) -> ManifestError {
         ManifestError::new(self.place_of(table, &invalid.key), &invalid.to_string())
     }
 
-    /// The place of the key at a path in `table`, or of the last of its parts that is there.
+    /// Returns the place in `table` of the key at a dotted path, or of the last of its parts that is there.
     pub fn place_of(&self, table: &DeTable, path: &str) -> Place {
         let (mut table, mut span) = (Some(table), 0..0);
         for part in path.split('.') {
@@ -229,7 +230,7 @@ impl Layers {
         self.place(&span)
     }
 
-    /// The file and line of a place in the texts; the beginning of all of them has no line.
+    /// Returns the file and the line of a place in the texts; an empty span at their beginning has no line.
     fn place(&self, span: &Range<usize>) -> Place {
         let layers = self.0.iter().rev();
         let layer = layers.clone().find(|layer| layer.start <= span.start);
@@ -242,14 +243,14 @@ impl Layers {
         }
     }
 
-    /// The folder of the manifest in which something stands.
+    /// Returns the folder of the manifest that contains `span`.
     pub fn folder_at(&self, span: &Range<usize>) -> &Folder {
         let mut layers = self.0.iter().rev();
         let layer = layers.find(|layer| layer.start <= span.start);
         &layer.unwrap_or(&self.0[0]).folder
     }
 
-    /// The content of a file: of the own folder, or of the first one behind it that has it.
+    /// Reads a file from the own folder or, if it is not there, from the first extended folder that has it.
     pub fn file(&self, name: &str) -> std::io::Result<Vec<u8>> {
         let own = self.0[0].folder.read(name);
         let absent = |error: &std::io::Error| error.kind() == ErrorKind::NotFound;
@@ -272,7 +273,7 @@ fn variants<'i>(table: &mut DeTable<'i>) -> DeTable<'i> {
     }
 }
 
-/// Puts the values of `overrides` in place of those of `table`, key by key.
+/// Replaces the values of `table` by those of `overrides`, key by key.
 fn merge<'i>(table: &mut DeTable<'i>, overrides: DeTable<'i>) {
     for (key, mut value) in overrides {
         if let Some(mut old) = table.remove(key.get_ref().as_ref())
@@ -286,7 +287,7 @@ fn merge<'i>(table: &mut DeTable<'i>, overrides: DeTable<'i>) {
     }
 }
 
-/// The keys that lead to what stands at `span`.
+/// Returns the keys that lead to what stands at `span`.
 fn path_to(table: &DeTable, span: &Range<usize>) -> Option<Vec<String>> {
     table.iter().find_map(|(key, value)| {
         let name = || key.get_ref().clone().into_owned();

@@ -6,7 +6,7 @@ use crate::model::{InvalidValue, readable, shown};
 use std::path::{Path, PathBuf};
 use thiserror::Error;
 
-/// Words that are less alike than this, as [`strsim::jaro`] has it, are not taken for one another.
+/// Least similarity ([`strsim::jaro`]) of a word to the one that it is taken to mean.
 const ALIKE: f64 = 0.7;
 
 /// A place in a manifest.
@@ -32,14 +32,14 @@ impl ManifestError {
         Self { place, message }
     }
 
-    /// An error about the manifest of `folder` as a whole.
+    /// Returns an error about the manifest of `folder` as a whole.
     pub(super) fn of_folder(folder: &Path, message: &str) -> Self {
         let (path, line) = (folder.join(MANIFEST), None);
         Self::new(Place { path, line }, message)
     }
 }
 
-/// A value that a manifest may not have.
+/// Returns the refusal of a value that a manifest may not have.
 pub(super) fn refused(
     key: &str,
     value: impl ToString,
@@ -52,7 +52,8 @@ pub(super) fn refused(
     }
 }
 
-/// The `message` of a parser about what stands at the key `path`, with the accepted word that is most like a wrong one.
+/// Explains the `message` of a parser about what stands at the key `path`, and suggests the accepted word that is
+/// most like a wrong one.
 pub(super) fn explained(message: &str, path: &str) -> String {
     let (problem, accepted) = message.split_once(", expected ").unwrap_or((message, ""));
     let word_after = |start: &str| problem.strip_prefix(start)?.strip_suffix('`');
@@ -89,7 +90,7 @@ pub(super) fn explained(message: &str, path: &str) -> String {
     )
 }
 
-/// The keys below `path` that say something of the convention of a code.
+/// Returns the keys below `path` that describe the convention of a code.
 fn convention_keys(path: &str) -> Vec<&'static str> {
     let known = ConventionKey::ALL.into_iter().map(ConventionKey::as_str);
     let known = known.chain(["convention.restitution"]);
@@ -100,7 +101,7 @@ fn convention_keys(path: &str) -> Vec<&'static str> {
     keys
 }
 
-/// The one of `known` that is most like `word`, if any is.
+/// Returns the one of `known` that is most like `word`, if any is similar enough.
 fn nearest<'a>(word: &str, known: &[&'a str]) -> Option<&'a str> {
     let likeness = |other: &&str| strsim::jaro(word, other);
     let alike = known

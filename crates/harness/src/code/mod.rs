@@ -1,5 +1,5 @@
-//! Codes: run a case, return its series. A code is a folder with a manifest and decks; the native one is part of this
-//! program.
+//! Codes: each runs a case and returns its series. A code is a folder with a manifest and decks; the native one is
+//! part of this program.
 
 mod batch;
 mod broken;
@@ -61,7 +61,7 @@ pub use witness::witness_test;
 pub use written::{HOME, keep_evidence};
 
 impl Code {
-    /// The code as it is installed here, which may be broken; `None` if it is not installed.
+    /// Finds the code as it is installed here; it may be broken. Returns `None` if it is not installed.
     pub fn find(&self) -> Option<Box<dyn InstalledCode>> {
         if self.is_native() {
             return Some(Box::new(Native::new(Arithmetic::Double)));
@@ -70,8 +70,9 @@ impl Code {
         ExternalCode::find(self, program.command.first()?)
     }
 
-    /// The build of this code that computes with more digits, if it is installed: double-double arithmetic for
-    /// native, the `higher_precision` program of the manifest for others. The difference of the two is round-off.
+    /// Finds the build of this code that computes with more digits, if it is installed: double-double arithmetic for
+    /// native, the `higher_precision` program of the manifest for others. The difference between the two is
+    /// round-off.
     pub fn find_precise(&self) -> Option<Box<dyn InstalledCode>> {
         if self.is_native() {
             return Some(Box::new(Native::new(Arithmetic::DoubleDouble)));

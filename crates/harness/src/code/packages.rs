@@ -1,15 +1,15 @@
-//! Packages of virtual environments of Python, whose modules and programs decide what a script computes.
+//! Packages of Python virtual environments, whose modules and programs decide what a script computes.
 
 use super::manifest::Environment;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
-/// The directories with the packages of virtual environments whose interpreters were found.
+/// The package directories of the virtual environments whose interpreters were found.
 #[derive(Default)]
 pub(super) struct Packages(BTreeSet<PathBuf>);
 
 impl Packages {
-    /// Adds those of the environment in which `program` is the interpreter.
+    /// Adds those of the virtual environment in which `program` is the interpreter.
     pub fn add_beside(&mut self, program: &Path) {
         let environment = program.parent().and_then(Path::parent);
         let is_interpreter = program
@@ -31,7 +31,8 @@ impl Packages {
         self.0.iter().cloned()
     }
 
-    /// `environment` with a search path for the libraries that packages put beside these directories.
+    /// Returns `environment` with the `lib` directories of the virtual environments, where packages put libraries, in
+    /// its library search path.
     pub fn with_libraries(&self, environment: &Environment) -> Environment {
         const SEARCH_PATH: &str = "LD_LIBRARY_PATH";
         let mut environment = environment.clone();

@@ -7,7 +7,7 @@ use crate::model::{
 };
 use serde_json::{Map, Value, json};
 
-/// Refuses parameters that are not finite numbers: some of those of a micro-test were measured with the code.
+/// Refuses parameters that are not finite numbers: some parameters of a micro-test were measured with the code.
 pub(super) fn only_numbers(parameters: &Value) -> Result<(), InvalidValue> {
     let mut named = parameters.as_object().into_iter().flatten();
     let other = named.find(|(_, value)| !value.is_number());
@@ -16,7 +16,7 @@ pub(super) fn only_numbers(parameters: &Value) -> Result<(), InvalidValue> {
     })
 }
 
-/// The parameters of a case as the decks of the external codes read them.
+/// Returns the parameters of a case as the decks of the external codes read them.
 pub(super) fn of_case(case: &Case) -> Value {
     let schedule = case.protocol.schedule();
     let epsilon = case.stack.epsilon();
@@ -37,7 +37,7 @@ pub(super) fn of_case(case: &Case) -> Value {
     ])
 }
 
-/// Where spheres start, and how they are numbered; nothing of cylinders.
+/// Returns where spheres start and how they are numbered; nothing for cylinders.
 fn of_spheres(stack: &Stack) -> Value {
     if stack.bodies == PAPER_BODIES {
         return json!({});
@@ -49,7 +49,7 @@ fn of_spheres(stack: &Stack) -> Value {
     ])
 }
 
-/// initial_x1, initial_y1, …
+/// Returns initial_x1, initial_y1, …
 pub(super) fn initial_positions(centres: &[[f64; 3]], axes: &str) -> Value {
     let mut own = json!({});
     for (number, centre) in (1..).zip(centres) {
@@ -73,7 +73,7 @@ fn of_contacts(convention: &ContactConvention, stiffness_ratio: f64, mu: f64, mu
     ])
 }
 
-/// What a deck needs beyond the coefficients of a pair where the law is not the paper's.
+/// Returns what a deck needs beyond the coefficients of a pair if the law is not linear.
 fn of_law(convention: &ContactConvention, stiffness_ratio: f64) -> Value {
     let law = &convention.law;
     if law.is_linear() {
@@ -93,7 +93,7 @@ fn of_law(convention: &ContactConvention, stiffness_ratio: f64) -> Value {
     ])
 }
 
-/// The parameters of a preparation, each kind for a deck of its own.
+/// Returns the parameters of a preparation; each kind has its own deck.
 fn of_preparation(preparation: &PreparationSteps, epsilon: f64) -> Value {
     match preparation {
         PreparationSteps::GravityRamp { ramp, rest } => json!({
@@ -104,7 +104,7 @@ fn of_preparation(preparation: &PreparationSteps, epsilon: f64) -> Value {
             "push_speed": steps.push_speed,
             "push_steps": steps.push_steps,
             "hold_steps": steps.hold_steps,
-            // Height of the top cylinder where it is let go, and how far it is lowered until there.
+            // Height at which the top cylinder is let go, and how far it is lowered to get there.
             "landing_height": steps.landing_height(epsilon),
             "fall": steps.fall,
             "fall_speed": steps.walls.fall_speed,
@@ -162,7 +162,8 @@ pub(super) fn of_contact_test(test: &ContactTest) -> Value {
     ])
 }
 
-/// The legs of a prescribed motion, which decks of the linear law do not know; no steps where both cylinders are free.
+/// Returns the legs of a prescribed motion: none for the linear law, whose decks do not know them; no steps where
+/// both cylinders are free.
 fn of_drive(test: &ContactTest) -> Value {
     if test.convention.law.is_linear() {
         return json!({});
@@ -196,7 +197,7 @@ pub(super) fn of_pyramid(pyramid: &Pyramid) -> Value {
     ])
 }
 
-/// One object with the entries of all `objects`.
+/// Merges the entries of all `objects` into one.
 pub(super) fn merged<const N: usize>(objects: [Value; N]) -> Value {
     let mut entries = Map::new();
     for mut object in objects {
@@ -205,9 +206,9 @@ pub(super) fn merged<const N: usize>(objects: [Value; N]) -> Value {
     entries.into()
 }
 
-/// Name and content of the file with the cylinders of `pyramid` in its box, in the format that `read_data` of
-/// LAMMPS and LIGGGHTS understands: atom, type, diameter, density, centre. Three types, as the contacts of
-/// LIGGGHTS have them; the mass is set by the deck.
+/// Returns name and content of the file with the cylinders of `pyramid` in its box, in the format that `read_data` of
+/// LAMMPS and LIGGGHTS understands: atom, type, diameter, density, centre. There are three types, as the contacts of
+/// LIGGGHTS need them; the deck sets the mass.
 pub(super) fn placed_cylinders(pyramid: &Pyramid) -> (&'static str, String) {
     let x = pyramid.half_width() + 1.0;
     let y = 2.0 * f64::from(pyramid.rows) + 1.0;

@@ -1,5 +1,5 @@
-//! Runs that are made elsewhere. The directory of each holds what a live run is given, to the byte; its result is read
-//! from there, and no program is started.
+//! Runs that are made elsewhere. The directory of each holds, byte for byte, what a live run is given; its result is
+//! read from there, and no program is started.
 
 use super::checks::stays_inside;
 use super::described::Code;
@@ -17,9 +17,9 @@ use std::collections::BTreeMap;
 use std::io::ErrorKind;
 use std::path::Path;
 
-/// Digits of the hash of its inputs in the name of a run's directory.
+/// Digits of the input hash in the name of a run's directory.
 const HASH_DIGITS: usize = 12;
-/// Largest given file that is compared, in bytes; that of a manifest's folder.
+/// Size limit for given files that are compared, in bytes: that for files of a manifest's folder.
 const LARGEST_GIVEN: u64 = 1 << 26;
 
 /// A task that is carried out elsewhere, under the name that manifests give its kind.
@@ -76,10 +76,10 @@ pub struct PreparedRun {
 }
 
 impl Code {
-    /// The run of `task` in a directory of a plan whose name begins with `place`.
+    /// Prepares the run of `task` in a directory of a plan; the name of the directory begins with `place`.
     ///
     /// # Errors
-    /// If the code cannot run the task, or its command is not one line.
+    /// If the code cannot run the task, or its command does not fit on one line.
     pub(crate) fn prepare_elsewhere<T: Task + Into<PlannedTask>>(
         &self,
         task: &T,
@@ -121,7 +121,8 @@ impl Code {
     }
 }
 
-/// The program in one of the directories that its manifest names, which a shell would not look through.
+/// Returns the path of the program in one of the directories that its manifest names, since a shell would not search
+/// them.
 fn named_path(program: &Program) -> Option<String> {
     let directories = program.search.iter().map(|place| place.get_ref().as_str());
     let mut directories = directories.filter(|place| *place != SEARCH_PATH).peekable();
@@ -130,7 +131,7 @@ fn named_path(program: &Program) -> Option<String> {
     Some(path.to_str()?.to_owned())
 }
 
-/// A word that would not stay in the line of its command.
+/// Returns a word of the command or its environment that would not stay on one line.
 fn not_in_one_line<'a>(command: &'a [String], environment: &'a Environment) -> Option<&'a String> {
     let environment = environment.iter();
     let variables = environment.flat_map(|(name, value)| [name, value]);
@@ -139,8 +140,8 @@ fn not_in_one_line<'a>(command: &'a [String], environment: &'a Environment) -> O
 }
 
 impl PreparedRun {
-    /// Writes the files of the run into its directory below `root`, unless they are there; one that has a result is left
-    /// as it is.
+    /// Writes the files of the run into its directory below `root`, unless they are there. A run that has a result is
+    /// left as it is.
     ///
     /// # Errors
     /// If the file system refuses.
@@ -161,7 +162,7 @@ impl PreparedRun {
 }
 
 impl PlannedRun {
-    /// Refuses a run whose files are elsewhere than below its plan, or whose case is none.
+    /// Refuses a run with files outside the directory of its plan, or with an invalid case.
     pub(crate) fn check(&self) -> Result<(), String> {
         let mut names = self.files.keys().chain([&self.directory, &self.result]);
         if let Some(name) = names.find(|name| !stays_inside(name)) {
@@ -176,11 +177,11 @@ impl PlannedRun {
         }
     }
 
-    /// Reads the outcome of `task`, which is that of this run by `code`, below `root`.
+    /// Reads the outcome of `task`, which is the task of this run by `code`, from its directory below `root`.
     ///
     /// # Errors
-    /// [`FailureKind::Awaited`] if there is none yet, [`FailureKind::NoResult`] if there is a part, or one of other
-    /// inputs, and [`FailureKind::UnusableFile`] if what is there is unusable.
+    /// [`FailureKind::Awaited`] if there is no result yet, [`FailureKind::NoResult`] if it is incomplete or was made
+    /// from other inputs, and [`FailureKind::UnusableFile`] if it is unusable.
     pub(crate) fn outcome<T: Task>(
         &self,
         code: &Code,
@@ -204,12 +205,12 @@ impl PlannedRun {
             })
     }
 
-    /// What its program has written last to standard error, below `root`.
+    /// Returns the last line that its program wrote to standard error, below `root`.
     pub(crate) fn complaint(&self, root: &Path) -> Option<String> {
         complaint(&root.join(&self.directory))
     }
 
-    /// The same for the task that the plan holds; `None` if its outcome is there and usable.
+    /// Returns why the outcome of the planned task cannot be read; `None` if it is there and usable.
     pub(crate) fn trouble(&self, code: &Code, root: &Path) -> Option<FailureKind> {
         match &self.task {
             PlannedTask::Stack(case) => self.outcome(code, case, root).err(),
@@ -217,7 +218,7 @@ impl PlannedRun {
         }
     }
 
-    /// A result of other decks or parameters than the planned ones is the result of another run.
+    /// Refuses a result of other decks or parameters than the planned ones: it belongs to another run.
     fn check_given(&self, directory: &Path) -> Result<(), FailureKind> {
         for (name, planned) in &self.files {
             let path = directory.join(name);
@@ -236,13 +237,14 @@ impl PlannedRun {
     }
 }
 
-/// Whether there is anything at `path`, links not followed.
+/// Whether anything is at `path`, links not followed.
 fn is_there(path: &Path) -> bool {
     let found = std::fs::symlink_metadata(path);
     !found.is_err_and(|error| error.kind() == ErrorKind::NotFound)
 }
 
-/// Whether the result at `path`, in which `error` was found, ends before its end: in too few rows, or within a line.
+/// Whether the result at `path`, in which `error` was found, is incomplete: it has too few rows, or ends within a
+/// line.
 fn is_a_part(error: &SeriesError, path: &Path) -> bool {
     match error {
         SeriesError::Truncated { found, expected } => found < expected,

@@ -15,7 +15,8 @@ use std::process::{ExitStatus, Stdio};
 use std::time::{Duration, Instant};
 
 const POLL_INTERVAL: Duration = Duration::from_millis(10);
-/// Longest interval between two polls that counts towards a time limit; tristack may have been suspended.
+/// Longest interval between two polls that counts towards a time limit; a longer one means that tristack was
+/// suspended.
 const LONGEST_INTERVAL: Duration = Duration::from_secs(1);
 /// Longest time that a guard may take to clean up before it is killed.
 const LONGEST_CLEANING: Duration = Duration::from_secs(5);
@@ -24,11 +25,11 @@ const LONGEST_REST: Duration = Duration::from_secs(1);
 
 /// A program to run.
 pub(crate) struct Job<'a> {
-    /// Program, and the arguments given to it as they are.
+    /// The program and its arguments, which are passed on as they are.
     pub command: &'a [OsString],
     /// Its working directory.
     pub directory: &'a Path,
-    /// Its home, and the place of its temporary files.
+    /// Its home, which also takes its temporary files.
     pub home: &'a Path,
     /// Further variables of its otherwise minimal environment.
     pub environment: &'a Environment,
@@ -38,9 +39,9 @@ pub(crate) struct Job<'a> {
     pub interrupt: &'a Interrupt,
 }
 
-/// Runs `job` to its end, and copies its output to `output` and `error`; returns the status with which it ended by itself,
-/// and `output` if it is complete. `progress` is polled while it runs; whenever it returns true, the time limit starts
-/// anew.
+/// Runs `job` to its end and copies its output to `output` and `error`. Returns the status with which it ended by
+/// itself, and `output` if that is complete. Polls `progress` while the program runs; whenever it returns true, the
+/// time limit starts anew.
 pub fn run<W: Write + Send + 'static>(
     job: &Job,
     output: W,
@@ -89,8 +90,8 @@ fn watch(
     }
 }
 
-/// Whether the program ended with `status` because a signal that asks to end was sent to everything that runs, as
-/// batch systems do: this program then learns of it at about the same time.
+/// Whether the program ended with `status` because everything that runs was sent a signal to end, as batch systems
+/// do: tristack then learns of it at about the same time.
 fn ended_with_tristack(job: &Job, status: ExitStatus) -> bool {
     let asked = [
         Signal::SIGTERM,

@@ -31,7 +31,7 @@ pub struct Identity {
 }
 
 impl Identity {
-    /// The native code of this program.
+    /// Returns the identity of the native code.
     pub(crate) fn native() -> &'static Self {
         static NATIVE: LazyLock<Identity> = LazyLock::new(|| Identity {
             code: Code::native().as_str().to_owned(),
@@ -44,8 +44,8 @@ impl Identity {
         &NATIVE
     }
 
-    /// What of this decides numbers: of the native code not the release, whose sources are hashed like a deck, but the
-    /// arithmetic that is named after it.
+    /// Returns the part of the identity that decides numbers. For the native code, that is not the release, because
+    /// its sources are hashed like a deck, but the arithmetic that the version names after it.
     pub(crate) fn deciding(&self) -> Self {
         let mut deciding = self.clone();
         if self.code == Code::native().as_str() {
@@ -55,7 +55,7 @@ impl Identity {
         deciding
     }
 
-    /// Content address of the run of `case` by this program with the deck that has `deck_hash`.
+    /// Returns the content address of the run of `case` by this program with the deck that has `deck_hash`.
     pub fn address(&self, case: &Case, deck_hash: &str) -> String {
         let parts = serde_json::json!([case.content_hash(), self.deciding(), deck_hash]);
         sha256_hex(parts.to_string().as_bytes())
@@ -68,8 +68,8 @@ impl Identity {
 pub struct Provenance {
     /// The program that computed it.
     pub identity: Identity,
-    /// SHA-256 of all inputs of the program: deck, parameters, arguments, environment; of sources and
-    /// parameters for the native code.
+    /// SHA-256 of all inputs of the program: deck, parameters, arguments and environment; for the native code, of
+    /// sources and parameters.
     pub deck_hash: String,
     /// Version of tristack that drove it.
     pub tristack: String,
@@ -82,12 +82,12 @@ pub struct Provenance {
     pub machine: String,
     /// Steps in all, preparation included.
     pub steps: u64,
-    /// Wall time since the process was started, or since its last finished run where many share one.
+    /// Wall time since the process was started or, where many runs share it, since its previous run finished.
     pub seconds: f64,
 }
 
 impl Provenance {
-    /// Provenance of a run that has just finished here.
+    /// Returns the provenance of a run that has just finished here.
     pub fn now(
         identity: Identity,
         deck_hash: String,
@@ -108,13 +108,13 @@ impl Provenance {
         }
     }
 
-    /// Indented JSON with a final newline.
+    /// Returns indented JSON with a final newline.
     pub fn to_json(&self) -> String {
         serde_json::to_string_pretty(self).expect("plain data has a JSON form") + "\n"
     }
 }
 
-/// This machine: processor, number of cores and operating system.
+/// Describes this machine: processor, number of cores and operating system.
 pub fn machine() -> &'static str {
     static MACHINE: LazyLock<String> = LazyLock::new(read_machine);
     &MACHINE

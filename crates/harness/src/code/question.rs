@@ -9,7 +9,7 @@ use std::ffi::OsString;
 use std::sync::OnceLock;
 use std::time::Duration;
 
-/// Attempts at a question that a signal ends: the answer becomes part of the address of every run.
+/// Attempts at a question if a signal ends the program: the answer becomes part of the address of every run.
 const TRIES: usize = 3;
 
 static NEVER: Interrupt = Interrupt::new();
@@ -20,15 +20,15 @@ pub fn let_interrupt_questions(interrupt: &'static Interrupt) {
     let _ = INTERRUPT.set(interrupt);
 }
 
-/// The interrupt of questions.
+/// Returns the interrupt that ends questions.
 pub(super) fn interrupt() -> &'static Interrupt {
     INTERRUPT.get().copied().unwrap_or(&NEVER)
 }
 
-/// The standard output of `command`; `None` if it ends with an error status.
+/// Runs `command` and returns its standard output; `None` if it ends with an error status.
 ///
-/// The program gets an empty directory as its home and working directory, which is removed afterwards: some write where
-/// they are asked, or where they take their home to be.
+/// The program gets an empty directory as its home and working directory, which is removed afterwards, because some
+/// programs write to one of the two.
 ///
 /// # Errors
 /// If it cannot be started, takes longer than `time_limit`, or is ended by a signal at every attempt.

@@ -1,4 +1,4 @@
-//! A code whose runs were made elsewhere, after a plan.
+//! A code whose runs were made elsewhere, following a plan.
 
 use super::described::Code;
 use super::failure::{Failure, FailureKind};
@@ -12,7 +12,7 @@ use crate::series::{Motion, PyramidRun, Series};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-/// A code that is judged by files: it reads results, and starts nothing.
+/// A code that is judged by files: it reads results and starts nothing.
 pub struct ResultFiles {
     name: Code,
     identity: Identity,
@@ -23,7 +23,7 @@ pub struct ResultFiles {
 }
 
 impl ResultFiles {
-    /// The results of `runs` by the code `name`, said to be of this `version`, below `root`.
+    /// Creates the code `name` with its results of `runs` below `root`, which are said to be of this `version`.
     pub(crate) fn new(name: Code, version: &str, root: &Path, runs: &[PlannedRun]) -> Self {
         let runs = runs.iter().cloned();
         let code = name.as_str().to_owned();

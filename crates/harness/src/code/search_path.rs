@@ -5,22 +5,23 @@ use crate::model::InvalidValue;
 use nix::unistd::{AccessFlags, access};
 use std::path::{Component, Path, PathBuf};
 
-/// In a manifest: the folder of the manifest.
+/// In a manifest: stands for the folder of the manifest.
 pub(super) const FOLDER: &str = "{folder}";
 
-/// In a manifest: the search path, in place of a directory.
+/// In a manifest: stands for the search path in the list of directories.
 pub(super) const SEARCH_PATH: &str = "$PATH";
 
-/// The program of this name in the search path.
+/// Finds the program of this name in the search path.
 pub(super) fn in_search_path(program: &str) -> Option<PathBuf> {
     let path = std::env::var_os("PATH")?;
     std::env::split_paths(&path).find_map(|directory| in_directory(&directory, program))
 }
 
-/// The program of this name in one of `directories`, which a manifest names; in the search path if it names none.
+/// Finds the program of this name in one of `directories`, which a manifest names; in the search path if it names
+/// none.
 ///
-/// Another program of the same name may be in the search path, whose runs would be kept under a wrong name: the search
-/// path is one of the directories only as `$PATH`.
+/// Where directories are named, the search path is one of them only as `$PATH`: it may hold another program of the
+/// same name, whose runs would be kept under a wrong name.
 pub(super) fn find_program<'a>(
     directories: impl IntoIterator<Item = &'a str>,
     program: &str,
@@ -41,8 +42,8 @@ fn in_directory(directory: &Path, program: &str) -> Option<PathBuf> {
     runs.then_some(candidate)
 }
 
-/// `directory` with the values of environment variables in place of parts such as `$VIRTUAL_ENV`; `None` if one of them
-/// is not set.
+/// Replaces parts of `directory` such as `$VIRTUAL_ENV` by the values of these environment variables; returns `None`
+/// if one of them is unset or empty.
 fn filled_in(directory: &str) -> Option<PathBuf> {
     let parts = Path::new(directory).components().map(|part| {
         let Component::Normal(name) = part else {

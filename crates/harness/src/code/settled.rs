@@ -6,9 +6,9 @@ use super::task::as_of_cylinders;
 use crate::model::{Case, ContactConvention, InvalidValue, Law, Power};
 use std::sync::Arc;
 
-/// A code with its settled convention: as its manifest declares it, and as a probe measured what the manifest leaves out.
+/// A code with its settled convention: what its manifest declares, and what a probe measured for the keys left out.
 ///
-/// Whatever plans, refers or judges takes one, so that nobody forgets to settle a convention:
+/// Whatever plans, computes references or judges takes a settled code, so that nobody forgets to settle a convention:
 ///
 /// ```
 /// use tristack_harness::code::Code;
@@ -40,14 +40,14 @@ impl SettledCode {
         Code::native().unmeasured("")
     }
 
-    /// The codes of this program whose normal force grows with this power of the overlap, as their manifests declare them;
-    /// of native, any power.
+    /// Returns the codes of this program whose normal force grows with this power of the overlap, as their manifests
+    /// declare them; that of the native code may grow with any.
     pub fn of_power(power: Power) -> Vec<Self> {
         let codes = Code::of_power(power).into_iter();
         codes.filter_map(|code| code.as_declared()).collect()
     }
 
-    /// `code` under the convention that its probe has settled.
+    /// Combines `code` with the convention that its probe has settled.
     pub fn new(code: Code, settled: Settled) -> Self {
         Self {
             code,
@@ -55,24 +55,24 @@ impl SettledCode {
         }
     }
 
-    /// The code itself, by which it is named, whatever is settled.
+    /// The code itself; its name does not depend on what is settled.
     pub fn name(&self) -> &Code {
         &self.code
     }
 
-    /// Its convention, with the uncertainty of what was measured, and what is not known.
+    /// Its convention, with the uncertainties of what was measured and the keys that are still unknown.
     pub fn settled(&self) -> &Settled {
         &self.settled
     }
 
-    /// Its contact convention, with the paper's values for keys that are not known; native, which accepts any, has the
-    /// paper's as its default.
+    /// Its contact convention, with the paper's values for unknown keys. The native code accepts any convention; its
+    /// default is the paper's.
     pub fn convention(&self) -> ContactConvention {
         self.settled.convention
     }
 
-    /// Its convention for stacks of so many bodies with a law of this power: the usual one if the convention is part of the
-    /// case, else its own.
+    /// Returns its convention for stacks of so many bodies with a law of this power: the usual one if the convention
+    /// belongs to the case, its own otherwise.
     pub fn stack_convention(&self, power: Power, bodies: u8) -> ContactConvention {
         let own = self.convention();
         match self.code.accepts_any_convention() {
@@ -81,7 +81,7 @@ impl SettledCode {
         }
     }
 
-    /// Refuses a convention that is not the settled one; the restitution is a parameter of every code.
+    /// Refuses a convention that differs from the settled one; the restitution is a parameter of every code.
     pub fn check_convention(&self, asked: &ContactConvention) -> Result<(), InvalidValue> {
         self.code.check_declared(asked)?;
         let mut own = *asked;
@@ -91,7 +91,8 @@ impl SettledCode {
         self.code.refuse_difference(asked, &own)
     }
 
-    /// Refuses a case under another convention than the settled one, or with a stiffness ratio that the code cannot have.
+    /// Refuses a case under another convention than the settled one, or with a stiffness ratio that the code cannot
+    /// have.
     ///
     /// # Errors
     /// The first key that is refused, with what the code accepts.
@@ -102,15 +103,16 @@ impl SettledCode {
 }
 
 impl Code {
-    /// The code under its declaration; `None` if that leaves something out, which a probe has to settle first.
+    /// Returns the code under its declaration; `None` if that leaves something out, which a probe has to settle
+    /// first.
     pub fn as_declared(&self) -> Option<SettledCode> {
         let declaration = self.declaration();
         let complete = declaration.left_out.is_empty();
         complete.then(|| SettledCode::new(self.clone(), declaration.unsettled("")))
     }
 
-    /// The code before any probe, `because` of something: the keys that its manifest leaves out are unknown, so that no
-    /// verdict is derived from them.
+    /// Returns the code before any probe, `because` of the given reason: the keys that its manifest leaves out are
+    /// unknown, so that no verdict is derived from them.
     pub fn unmeasured(&self, because: &str) -> SettledCode {
         SettledCode::new(self.clone(), self.declaration().unsettled(because))
     }
@@ -124,7 +126,7 @@ impl std::fmt::Debug for SettledCode {
 
 #[cfg(test)]
 impl SettledCode {
-    /// The code of this name, which declares everything.
+    /// Returns the code of this name, which must declare everything.
     pub(crate) fn named(name: &str) -> Self {
         let code = Code::named(name).expect("it is built in");
         code.as_declared().expect("nothing is left out")

@@ -10,7 +10,7 @@ use crate::model::{Case, ContactConvention, ContactTest, InvalidValue, Pyramid, 
 use crate::series::{Motion, PyramidRun, Series, SeriesError};
 use std::path::Path;
 
-/// File with the centres of a pyramid. Decks write it last, so that it is of this run if the code succeeds.
+/// File with the centres of a pyramid. Decks write it last, so that it belongs to this run if the code succeeds.
 const CENTRES: &str = "centres.txt";
 
 /// A task of a code: a case becomes a series, a micro-test a motion.
@@ -33,7 +33,8 @@ pub trait Task: Copy + std::fmt::Display + Sync {
     /// Named numbers for the decks that come with tristack.
     fn parameters(&self) -> serde_json::Value;
 
-    /// Everything that a deck needs, as named numbers: these, and the units, bodies and starting positions.
+    /// Everything that a deck needs, as named numbers: [`Self::parameters`], and the units, bodies and starting
+    /// positions.
     fn all_parameters(&self) -> serde_json::Value;
 
     /// Refuses values out of range.
@@ -138,7 +139,7 @@ impl Task for Pyramid {
         self.groups.stiffness_ratio
     }
 
-    /// As if every cylinder took as long as a whole stack.
+    /// Counts every cylinder as if it took as long as a whole stack.
     fn steps(&self) -> u64 {
         let cylinders = self.cylinder_count() as u64;
         self.total_steps().saturating_mul(cylinders)
@@ -171,8 +172,8 @@ impl Task for Pyramid {
 }
 
 impl Definition {
-    /// The files of `task` alone, by name and content: its parameters, and what else it needs. The decks, which other
-    /// tasks share, are [`Self::files`].
+    /// Returns the files of `task` alone by name and content: its parameters, and what else it needs. The decks,
+    /// which tasks share, come from [`Self::files`].
     ///
     /// # Errors
     /// If a parameter is not a finite number.
@@ -190,7 +191,7 @@ impl Definition {
 }
 
 impl ParameterFile {
-    /// The parameters of `task` as this file has them.
+    /// Returns the parameters of `task` that this file holds.
     pub(super) fn numbers(&self, task: &impl Task) -> serde_json::Value {
         match self.content {
             ParameterContent::Task => task.all_parameters(),
@@ -200,14 +201,14 @@ impl ParameterFile {
 }
 
 impl Code {
-    /// Refuses a task whose convention contradicts the declaration of the code, or with a stiffness ratio that it cannot
-    /// have.
+    /// Refuses a task whose convention contradicts the declaration of the code, or whose stiffness ratio the code
+    /// cannot have.
     pub(crate) fn check_convention_of<T: Task>(&self, task: &T) -> Result<(), InvalidValue> {
         self.check_declared(&as_of_cylinders(task, &self.declaration().convention))?;
         self.check_stiffness_ratio(task.stiffness_ratio())
     }
 
-    /// The files that a run of `task` leaves in its directory, as far as the manifest names them.
+    /// Lists the files that a run of `task` leaves in its directory, as far as the manifest names them.
     pub fn run_files<T: Task>(&self, task: &T) -> Vec<String> {
         let definition = self.definition();
         let Some(program) = &definition.program else {
@@ -222,15 +223,17 @@ impl Code {
         names.chain([definition.result(kind).file]).collect()
     }
 
-    /// Hash of all inputs that this version of tristack gives the code for `task`: files, parameters, command and
-    /// environment, and columns that are not what their names say. For the native code its sources take the place of the files.
+    /// Hash of all inputs that this version of tristack gives the code for `task`: files, parameters, command,
+    /// environment, and columns under other names or with factors. For the native code its sources take the place of
+    /// the files.
     pub fn deck_hash<T: Task>(&self, task: &T) -> String {
         let files_hash = self.files_hash(task.kind());
         self.definition().input_hash(&files_hash, task)
     }
 }
 
-/// The convention of `task` with the moment of inertia of the `cylinders` of its code: spheres are solid, whatever these are.
+/// Returns the convention of `task`; if that has spheres, with the moment of inertia of the `cylinders` of its code,
+/// because spheres are solid whatever the cylinders are.
 pub(super) fn as_of_cylinders<T: Task>(
     task: &T,
     cylinders: &ContactConvention,
@@ -246,7 +249,7 @@ pub(super) fn as_of_cylinders<T: Task>(
 }
 
 impl Definition {
-    /// Hash of all inputs for `task`, of whose files it is `files_hash`.
+    /// Returns the hash of all inputs for `task`, whose files have the hash `files_hash`.
     fn input_hash<T: Task>(&self, files_hash: &str, task: &T) -> String {
         let (kind, file) = (task.kind(), &self.parameters);
         let content = file.format.content(&file.numbers(task));
@@ -255,7 +258,7 @@ impl Definition {
         let mut given = format!("{}\n{content}\n{command:?}\n{environment:?}", file.file);
         let columns = self.result(kind).columns;
         if !columns.is_empty() {
-            // They decide what the numbers of a result mean.
+            // Columns decide what the numbers of a result mean.
             given += &format!("\n{columns:?}");
         }
         sha256_hex(format!("{files_hash}\n{given}").as_bytes())

@@ -1,5 +1,5 @@
-//! The witness of a program: the motion of one micro-test, to ten digits. Where a wrapper hides what computes, another
-//! program inside of it gives another motion.
+//! The witness of a program: the motion of one micro-test, to ten digits. Where a wrapper hides the program that
+//! computes, another program inside it gives another motion.
 
 use super::batch::Batch;
 use super::definition::LONGEST_START;
@@ -11,10 +11,11 @@ use crate::files::Scratch;
 use crate::model::{ContactConvention, ContactTest, InitialMotion, sha256_hex};
 use crate::series::{Motion, MotionRow};
 
-/// Longest start of a program, in seconds as its manifest tells, whose witness is heard in every session.
+/// Longest start, in seconds by the manifest, of a program whose witness is computed in every session.
 const LONGEST_HEARD: f64 = 1.0;
 
-/// Two cylinders between floor and top wall, which touch each other and both walls; they stick, slide and are damped.
+/// Returns a micro-test of two cylinders that touch each other, the floor and the top wall; they stick, slide and are
+/// damped.
 pub fn witness_test(convention: ContactConvention) -> ContactTest {
     let first = InitialMotion {
         x: 0.0,
@@ -49,8 +50,8 @@ pub fn witness_test(convention: ContactConvention) -> ContactTest {
 }
 
 impl ExternalCode {
-    /// SHA-256 of the motion to ten digits; `None` if the program takes too long to start, has no deck for micro-tests,
-    /// or fails.
+    /// Computes the SHA-256 of the motion to ten digits; returns `None` if the program takes too long to start, has
+    /// no deck for micro-tests, or fails.
     pub(super) fn witness(&self) -> Option<String> {
         if self.definition().seconds.start > LONGEST_HEARD
             || !self.definition().runs(TaskKind::Motion)

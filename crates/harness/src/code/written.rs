@@ -8,7 +8,7 @@ use std::os::unix::fs::MetadataExt;
 use std::path::Path;
 use tempfile::TempDir;
 
-/// The beginning of the name of the directory that a process takes for its home.
+/// Prefix of the name of the directory that a process uses as its home.
 pub const HOME: &str = ".home-";
 // Files that receive the output of a program.
 pub(super) const STANDARD_OUTPUT: &str = "stdout.txt";
@@ -20,13 +20,13 @@ const LONGEST_READ: u64 = 256 << 20;
 /// Files of failed runs, of which there may be hundreds, are cut to this length.
 const LONGEST_KEPT: u64 = 4 << 20;
 
-/// The file `name` in `directory`, which must be there itself, and not a link to another one.
+/// Reads the file `name` in `directory`; refuses a link to another file.
 pub(super) fn read(directory: &Path, name: &str) -> Result<Vec<u8>, SeriesError> {
     let content = read_bounded(&directory.join(name), LONGEST_READ, Links::Refused);
     content.map_err(|error| SeriesError::absent(format!("cannot read {name}: {error}")))
 }
 
-/// The end of the `logs` in `directory`, and of the output of the program, each line with the name of its file.
+/// Returns the last lines of the `logs` in `directory` and of the program's output, each with the name of its file.
 pub(super) fn last_lines(directory: &Path, logs: &[String]) -> Vec<String> {
     let logs = logs.iter().map(String::as_str);
     logs.chain([STANDARD_OUTPUT, STANDARD_ERROR])
@@ -37,14 +37,14 @@ pub(super) fn last_lines(directory: &Path, logs: &[String]) -> Vec<String> {
         .collect()
 }
 
-/// The last line of its standard error in `directory`, with the path; `None` if there is none.
+/// Returns the last line of standard error in `directory`, with the path of its file; `None` if there is none.
 pub(super) fn complaint(directory: &Path) -> Option<String> {
     let path = directory.join(STANDARD_ERROR);
     let line = tail(&path).pop()?;
     Some(format!("{}: {line}", shown(&path)))
 }
 
-/// The last lines of a file that are not blank; bytes that are not text are replaced.
+/// Returns the last lines of a file that are not blank; bytes that are not text are replaced.
 fn tail(path: &Path) -> Vec<String> {
     let bytes = read_end(path, TAIL_BYTES).unwrap_or_default();
     let text = String::from_utf8_lossy(&bytes);
@@ -53,7 +53,7 @@ fn tail(path: &Path) -> Vec<String> {
     lines[lines.len().saturating_sub(LAST_LINES)..].to_vec()
 }
 
-/// Keeps the directory of a failed run, with the beginning of every long file that is nowhere else.
+/// Keeps the directory of a failed run. Long files are cut to their beginning, unless they have another name as well.
 pub fn keep_evidence(directory: TempDir) {
     let root = directory.keep();
     let Ok(disk) = fs::symlink_metadata(&root).map(|found| found.dev()) else {
@@ -76,7 +76,7 @@ pub fn keep_evidence(directory: TempDir) {
     }
 }
 
-/// Cuts a long file; one that cannot be cut, or has another name, perhaps elsewhere, stays as it is.
+/// Cuts a long file. One that cannot be opened, or has another hard link, perhaps elsewhere, stays as it is.
 fn shorten(path: &Path) {
     let Ok(file) = open_regular(path, Links::Refused, File::options().write(true)) else {
         return;

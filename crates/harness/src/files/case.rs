@@ -4,7 +4,7 @@ use super::read::{Links, read_bounded};
 use crate::model::{Case, CaseError, InvalidValue, PartialCase};
 use std::path::Path;
 
-/// Largest case file that is read, in bytes: a thousand times one with every key.
+/// Size limit for case files in bytes: a thousand times a file with every key.
 const LARGEST: u64 = 1 << 20;
 
 /// Reads and validates a case from a `.toml` or `.json` file.
@@ -23,7 +23,7 @@ pub fn read_case_with(
     Case::parse_with(&case_content(path)?, path, complete)
 }
 
-/// The content of a case file.
+/// Reads the content of a case file.
 pub fn case_content(path: &Path) -> Result<Vec<u8>, CaseError> {
     let content = read_bounded(path, LARGEST, Links::Followed);
     content.map_err(|source| CaseError::Unreadable {

@@ -9,13 +9,13 @@ use std::fmt::Display;
 use std::io::ErrorKind;
 use std::path::Path;
 
-/// The file with the digests of all others of an entry.
+/// The file that holds the digests of all other files of an entry.
 pub(crate) const CHECKSUMS: &str = "SHA256SUMS";
 
-/// Largest sealed file that is read, in bytes: four times the longest result of a code.
+/// Size limit for sealed files in bytes: four times the longest result of a code.
 const LARGEST: u64 = 1 << 30;
 
-/// Content of the file with the digests of `files`.
+/// Returns the content of the file with the digests of `files`.
 pub(crate) fn checksums<'a>(
     files: impl IntoIterator<Item = (impl Display, &'a Vec<u8>)>,
 ) -> String {
@@ -46,7 +46,7 @@ pub(crate) fn check(
     }
 }
 
-/// `content` behind a line with its digest.
+/// Returns `content` after a line with its digest.
 pub fn seal(content: &[u8]) -> Vec<u8> {
     let mut sealed = sha256_hex(content).into_bytes();
     sealed.push(b'\n');
@@ -54,7 +54,7 @@ pub fn seal(content: &[u8]) -> Vec<u8> {
     sealed
 }
 
-/// The content of `sealed`, which [`seal`] made, read from the file at `path`.
+/// Returns the content of `sealed`, which [`seal`] made; `path` names the file that it was read from.
 ///
 /// # Errors
 /// If a single bit has changed; the error names the file and both digests.
@@ -75,8 +75,8 @@ pub fn unseal<'a>(path: &Path, sealed: &'a [u8]) -> Result<&'a [u8], FileError> 
     })
 }
 
-/// Writes the sealed `content` to `path` whole or not at all, by way of the directory `drafts`, which the caller cleans
-/// up.
+/// Writes the sealed `content` to `path` whole or not at all, through a draft in the directory `drafts`, which the
+/// caller cleans up.
 ///
 /// # Errors
 /// If the file system refuses; `path` is then as it was.
@@ -85,7 +85,7 @@ pub(crate) fn write_sealed(drafts: &Path, path: &Path, content: &[u8]) -> Result
     write_by_draft(drafts, prefix, path, &sealed, OWNER_WRITES)
 }
 
-/// The content of the sealed file at `path`, if there is one.
+/// Reads and unseals the file at `path`; returns `None` if there is none.
 pub(crate) fn read_sealed(path: &Path) -> Result<Option<Vec<u8>>, FileError> {
     match read_bounded(path, LARGEST, Links::Refused) {
         Err(error) if error.kind() == ErrorKind::NotFound => Ok(None),

@@ -1,6 +1,6 @@
-//! Files that are written whole or not at all, whatever happens to the machine.
+//! Files that are written whole or not at all, even if the machine fails.
 //!
-//! Content goes to a draft, is synced, and takes the place of the target by a rename, which is synced too.
+//! Content goes to a draft, is synced, and replaces the target by a rename, which is synced too.
 
 use super::FileError;
 use super::read::{Links, accept_regular, open_directory, open_regular};
@@ -12,19 +12,19 @@ use std::os::unix::fs::{MetadataExt, OpenOptionsExt, PermissionsExt};
 use std::path::{Path, PathBuf};
 use tempfile::TempDir;
 
-/// Random letters and digits at the end of the name of whatever may be removed again because of its name: so many that
-/// nobody else's file has such a name.
+/// Number of random letters and digits that end the names of whatever this program may remove because of its name:
+/// enough that nobody else's file has such a name.
 const RANDOM: usize = 12;
 
-/// Permissions of files that the umask of the user restricts further, as usual.
+/// Permissions of ordinary files, which the user's umask restricts further.
 const AS_USUAL: u32 = 0o666;
-/// The same for files that nobody else may write to.
+/// Permissions of files that nobody else may write to, before the umask.
 pub(super) const OWNER_WRITES: u32 = 0o644;
 /// Permissions of directories that nobody else may look into.
 const OWNER_ALONE: u32 = 0o700;
 
-/// Writes `content` to `path` such that a reader sees the old file or the new one, never a part. Drafts of the same
-/// file by killed programs are removed.
+/// Writes `content` to `path` so that a reader sees the old file or the new one, never a part. Removes drafts of the
+/// same file that killed programs left behind.
 ///
 /// # Errors
 /// If the file system refuses, or `path` is anything but a regular file or a new name; it is then as it was.
@@ -38,7 +38,7 @@ pub fn write_atomically(path: &Path, content: &[u8]) -> Result<(), FileError> {
     write_by_draft(&directory, &prefix, path, content, AS_USUAL)
 }
 
-/// The beginning of the name of a draft of the file at `path`.
+/// Returns the prefix of the names of drafts of the file at `path`.
 fn draft_prefix(path: &Path) -> OsString {
     let mut prefix = OsString::from(".");
     prefix.push(path.file_name().unwrap_or_default());
@@ -46,14 +46,14 @@ fn draft_prefix(path: &Path) -> OsString {
     prefix
 }
 
-/// Whether [`write_atomically`] may have called a draft of a file in the same directory `name`.
+/// Whether [`write_atomically`] may have given `name` to a draft of a file in the same directory.
 pub(crate) fn is_draft(name: &str) -> bool {
     let name = name.strip_prefix('.');
     let parts = name.and_then(|name| name.rsplit_once(".draft-"));
     parts.is_some_and(|(_, random)| is_random(random.as_bytes()))
 }
 
-/// Whether `name` begins with `prefix` and goes on with what a name of ours ends with.
+/// Whether `name` is `prefix` with an ending like those that [`temporary`] makes.
 pub(crate) fn is_temporary(name: &OsStr, prefix: &OsStr) -> bool {
     let name = name.as_encoded_bytes();
     let random = name.strip_prefix(prefix.as_encoded_bytes());
@@ -64,14 +64,14 @@ fn is_random(text: &[u8]) -> bool {
     text.len() == RANDOM && text.iter().all(u8::is_ascii_alphanumeric)
 }
 
-/// Makes temporary files and directories whose names [`is_temporary`] knows.
+/// Returns a builder of temporary files and directories whose names [`is_temporary`] recognises.
 pub(crate) fn temporary<'a>(prefix: &'a OsStr) -> tempfile::Builder<'a, 'static> {
     let mut builder = tempfile::Builder::new();
     builder.prefix(prefix).rand_bytes(RANDOM);
     builder
 }
 
-/// The same by way of a draft in the directory `drafts`, which the caller cleans up.
+/// Writes `content` to `path` through a draft in the directory `drafts`, which the caller cleans up.
 pub(super) fn write_by_draft(
     drafts: &Path,
     prefix: &OsStr,
@@ -81,7 +81,7 @@ pub(super) fn write_by_draft(
 ) -> Result<(), FileError> {
     let directory = create_parent(path)?;
     let write = || try_to_write(drafts, prefix, path, content, mode);
-    // Before it was locked, another program may have taken the draft for an abandoned one.
+    // Another program may have removed the draft as abandoned before it was locked.
     match write() {
         Err(error) if error.kind() == ErrorKind::NotFound => write(),
         written => written,
@@ -97,11 +97,11 @@ fn try_to_write(
     content: &[u8],
     mode: u32,
 ) -> std::io::Result<()> {
-    // As readable as any other file of this user, not as a temporary one.
+    // As readable as any other file of this user, unlike a usual temporary file.
     let mut draft = temporary(prefix)
         .permissions(Permissions::from_mode(mode))
         .tempfile_in(drafts)?;
-    // The lock marks the draft as in use. Where files cannot be locked, drafts are only not cleaned up.
+    // The lock marks the draft as in use. Where files cannot be locked, drafts are merely not cleaned up.
     let _ = draft.as_file().try_lock();
     draft.write_all(content)?;
     draft.as_file().sync_all()?;
@@ -109,8 +109,8 @@ fn try_to_write(
     Ok(())
 }
 
-/// Removes the files and directories of this user in `directory` that [`temporary`] may have made with `prefix` and that
-/// are not locked: a lock ends with its program.
+/// Removes this user's files and directories in `directory` that [`temporary`] may have made with `prefix` and that
+/// are not locked. A lock ends with the program that holds it.
 pub(crate) fn remove_abandoned(directory: &Path, prefix: &OsStr) {
     let entries = fs::read_dir(directory).into_iter().flatten().flatten();
     let user = geteuid().as_raw();
@@ -120,7 +120,7 @@ pub(crate) fn remove_abandoned(directory: &Path, prefix: &OsStr) {
     });
     for entry in own {
         let path = entry.path();
-        // Held until the removal is done, so that its maker cannot take it into use meanwhile.
+        // Held until the removal is done, so that the program that made it cannot take it into use meanwhile.
         let hold = |file: File| file.try_lock().ok().map(|()| file);
         // Another program may be faster.
         let _ = match entry.file_type() {
@@ -141,9 +141,9 @@ fn open_to_read(path: &Path) -> std::io::Result<File> {
     open_regular(path, Links::Refused, File::options().read(true))
 }
 
-/// Creates a directory in `parent`, locked as long as the file beside it is open, and removed when dropped.
+/// Creates a directory in `parent` that is removed when dropped, and locked as long as the returned file is open.
 ///
-/// Before it is locked, another program may take it for abandoned; it is then created under another name.
+/// Another program may take it for abandoned before it is locked; then another one is created under a new name.
 pub(crate) fn locked_directory(
     parent: &Path,
     prefix: &str,
@@ -161,8 +161,8 @@ pub(crate) fn locked_directory(
     Err(std::io::Error::other(message))
 }
 
-/// Locks the new directory at `path`; `None` if another program is about to remove it, or has done so. Where files
-/// cannot be locked, nothing is taken for abandoned.
+/// Locks the new directory at `path`; returns `None` if another program is about to remove it, or has removed it.
+/// Where files cannot be locked, nothing counts as abandoned.
 fn take_into_use(path: &Path) -> std::io::Result<Option<File>> {
     let lock = match open_directory(path) {
         Err(error) if error.kind() == ErrorKind::NotFound => return Ok(None),
@@ -172,13 +172,13 @@ fn take_into_use(path: &Path) -> std::io::Result<Option<File>> {
     Ok((!taken).then_some(lock))
 }
 
-/// Attempts at a directory that no other program takes for abandoned before it is locked.
+/// Most attempts to create a directory that no other program takes for abandoned before it is locked.
 const TRIES: usize = 100;
-/// Beginning of the names of [`Scratch`] directories.
+/// Prefix of the names of [`Scratch`] directories.
 const SCRATCH: &str = "tristack-scratch-";
 
-/// A directory for temporary files inside of another one, so that what a program writes beside it is removed as well:
-/// when dropped, or, if this program is killed, by the next one that makes one.
+/// A directory for temporary files. It lies inside another one, so that what a program writes beside it is removed as
+/// well: when dropped or, if this program is killed, by the next program that makes a `Scratch`.
 pub struct Scratch {
     directory: PathBuf,
     _outer: TempDir,
@@ -186,7 +186,7 @@ pub struct Scratch {
 }
 
 impl Scratch {
-    /// A new directory among the temporary files of this machine.
+    /// Creates one in this machine's directory for temporary files, after removing abandoned ones.
     pub fn new() -> std::io::Result<Self> {
         let root = std::env::temp_dir();
         remove_abandoned(&root, SCRATCH.as_ref());
@@ -206,8 +206,7 @@ impl Scratch {
     }
 }
 
-/// Writes a new file, which nobody else may write to, and which lasts through a power failure once its directory is
-/// synced.
+/// Writes a new file that nobody else may write to. It survives a power failure once its directory is synced.
 pub(crate) fn write_synced(path: &Path, content: &[u8]) -> Result<(), FileError> {
     let mut options = File::options();
     let options = options.write(true).create_new(true).mode(OWNER_WRITES);
@@ -218,13 +217,14 @@ pub(crate) fn write_synced(path: &Path, content: &[u8]) -> Result<(), FileError>
     written.map_err(FileError::writing(path))
 }
 
-/// Creates a file at `path`, in place of an older one, to which others may have links.
+/// Creates a file at `path`. An older one is removed first rather than overwritten, since others may have links to
+/// it.
 pub(crate) fn create_anew(path: &Path) -> std::io::Result<File> {
     remove_older(path)?;
     File::options().write(true).create_new(true).open(path)
 }
 
-/// Removes the file at `path`, if there is one; never what a symbolic link leads to.
+/// Removes the file at `path` if there is one; never the target of a symbolic link.
 pub fn remove_older(path: &Path) -> std::io::Result<()> {
     match fs::remove_file(path) {
         Err(error) if error.kind() != ErrorKind::NotFound => Err(error),
@@ -232,14 +232,14 @@ pub fn remove_older(path: &Path) -> std::io::Result<()> {
     }
 }
 
-/// Makes renames into and out of `directory` last through a power failure.
+/// Syncs `directory`, so that renames into and out of it survive a power failure.
 pub(crate) fn sync_directory(directory: &Path) -> Result<(), FileError> {
     open_directory(directory)
         .and_then(|directory| directory.sync_all())
         .map_err(FileError::writing(directory))
 }
 
-/// Creates the directory for `target`, if there is none, and makes it last.
+/// Returns the parent directory of `target`. If it is missing, creates it and syncs the two directories above it.
 pub(crate) fn create_parent(target: &Path) -> Result<PathBuf, FileError> {
     let directory = parent(target);
     if !directory.is_dir() {
@@ -300,7 +300,7 @@ mod tests {
         assert!(take_into_use(&path).unwrap().is_some());
     }
 
-    /// Several threads clean up while others begin: none loses its directory.
+    /// Several threads clean up while others begin: no thread loses its directory.
     #[test]
     fn no_directory_is_lost_to_one_who_cleans_up() {
         let parent = tempfile::tempdir().unwrap();

@@ -36,12 +36,12 @@ pub enum FileError {
 }
 
 impl FileError {
-    /// Names the file in an error of reading it.
+    /// Adds the path of the file to an error of reading it.
     pub fn reading(path: &Path) -> impl FnOnce(std::io::Error) -> Self {
         Self::trying("read", path)
     }
 
-    /// Names the file in an error of writing it.
+    /// Adds the path of the file to an error of writing it.
     pub fn writing(path: &Path) -> impl FnOnce(std::io::Error) -> Self {
         Self::trying("write", path)
     }
@@ -55,19 +55,19 @@ impl FileError {
         }
     }
 
-    /// Whether there is no room for the file.
+    /// Whether the disk or the user's quota is full.
     pub fn is_full(&self) -> bool {
         let full = [ErrorKind::StorageFull, ErrorKind::QuotaExceeded];
         matches!(self, Self::Io { source, .. } if full.contains(&source.kind()))
     }
 
-    /// The file at `path` does not hold the series of its case.
+    /// Returns the error for a file at `path` that does not hold the series of its case.
     pub fn series(path: &Path) -> impl FnOnce(SeriesError) -> Self {
         let path = path.to_owned();
         move |source| Self::Series { path, source }
     }
 
-    /// The file at `path` cannot be understood.
+    /// Returns the error for a file at `path` that cannot be understood.
     pub fn content(path: &Path, message: impl ToString) -> Self {
         Self::Content {
             path: path.to_owned(),
@@ -76,7 +76,7 @@ impl FileError {
     }
 }
 
-/// The value in the JSON `text` of the file at `path`.
+/// Parses the JSON `text` of the file at `path`.
 pub(crate) fn parse_json<T: DeserializeOwned>(text: &[u8], path: &Path) -> Result<T, FileError> {
     serde_json::from_slice(text).map_err(|error| FileError::content(path, error))
 }

@@ -1,5 +1,5 @@
-//! Files: read without waiting, written whole or not at all, never those of anybody else; digests, and the errors of all
-//! that.
+//! Files: reads that never wait, writes that are whole or not at all and never touch anybody else's files, digests,
+//! and the errors of all these.
 
 mod case;
 mod checksums;

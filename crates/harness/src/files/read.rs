@@ -1,7 +1,7 @@
-//! Reading files without ever waiting: regular ones alone, and no more than a given number of bytes.
+//! Reads regular files alone, without ever waiting, and no more than a given number of bytes.
 //!
-//! A named pipe without a writer, a terminal or a device would otherwise keep the program for ever. No other place in the
-//! program opens a file to read it (`tests/documents/architecture.rs`).
+//! A named pipe without a writer, a terminal or a device would otherwise block the program for ever. No other place
+//! in the program opens a file to read it (`tests/documents/architecture.rs`).
 
 use nix::fcntl::OFlag;
 use std::fs::{self, File, Metadata, OpenOptions};
@@ -9,29 +9,29 @@ use std::io::{Error, ErrorKind, Read, Seek, SeekFrom};
 use std::os::unix::fs::{FileTypeExt, OpenOptionsExt};
 use std::path::Path;
 
-/// Largest file of the system, such as `/proc/cpuinfo`, that is read, in bytes.
+/// Size limit for system files such as `/proc/cpuinfo`, in bytes.
 const LARGEST_SYSTEM_FILE: u64 = 1 << 24;
 
 /// Whether the last part of a path may be a symbolic link.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Links {
-    /// As for files that a user names.
+    /// For files that a user names.
     Followed,
-    /// As for files that only this program or a code may have written.
+    /// For files that only this program or a code may have written.
     Refused,
 }
 
-/// The content of the regular file at `path`, if that has at most `limit` bytes.
+/// Reads the regular file at `path` if it has at most `limit` bytes.
 ///
 /// # Errors
-/// Whatever the system says; [`ErrorKind::InvalidInput`] for anything that is no regular file or is too long.
+/// Any error of the system; [`ErrorKind::InvalidInput`] if the file is not a regular one or is too long.
 pub fn read_bounded(path: &Path, limit: u64, links: Links) -> std::io::Result<Vec<u8>> {
     let file = open_regular(path, links, OpenOptions::new().read(true))?;
     if file.metadata()?.len() > limit {
         return Err(too_long(limit));
     }
     let mut content = Vec::new();
-    // It may grow meanwhile, and files of the system have no length.
+    // The file may grow meanwhile, and system files report no length.
     file.take(limit + 1).read_to_end(&mut content)?;
     if content.len() as u64 > limit {
         return Err(too_long(limit));
@@ -39,7 +39,7 @@ pub fn read_bounded(path: &Path, limit: u64, links: Links) -> std::io::Result<Ve
     Ok(content)
 }
 
-/// The first `count` bytes of the regular file at `path`.
+/// Reads the first `count` bytes of the regular file at `path`.
 pub(crate) fn read_beginning(path: &Path, count: u64) -> std::io::Result<Vec<u8>> {
     let file = open_regular(path, Links::Followed, OpenOptions::new().read(true))?;
     let mut content = Vec::new();
@@ -47,7 +47,7 @@ pub(crate) fn read_beginning(path: &Path, count: u64) -> std::io::Result<Vec<u8>
     Ok(content)
 }
 
-/// The last `count` bytes of the regular file at `path`, which must not be a symbolic link.
+/// Reads the last `count` bytes of the regular file at `path`, which must not be a symbolic link.
 pub(crate) fn read_end(path: &Path, count: u64) -> std::io::Result<Vec<u8>> {
     let mut file = open_regular(path, Links::Refused, OpenOptions::new().read(true))?;
     let start = file.metadata()?.len().saturating_sub(count);
@@ -57,16 +57,16 @@ pub(crate) fn read_end(path: &Path, count: u64) -> std::io::Result<Vec<u8>> {
     Ok(content)
 }
 
-/// The text of a file of the system, such as `/proc/cpuinfo`; bytes that are no text are replaced.
+/// Reads a system file such as `/proc/cpuinfo` as text; bytes that are not text are replaced.
 pub fn system_text(path: impl AsRef<Path>) -> Option<String> {
     let content = read_bounded(path.as_ref(), LARGEST_SYSTEM_FILE, Links::Followed).ok()?;
     Some(String::from_utf8_lossy(&content).into_owned())
 }
 
-/// Opens the regular file at `path` with `options`, without waiting for anybody at its other end.
+/// Opens the regular file at `path` with `options`, without waiting for a process at its other end.
 ///
 /// # Errors
-/// Whatever the system says; [`ErrorKind::InvalidInput`] for anything that is no regular file.
+/// Any error of the system; [`ErrorKind::InvalidInput`] for anything but a regular file.
 pub(crate) fn open_regular(
     path: &Path,
     links: Links,
@@ -76,10 +76,10 @@ pub(crate) fn open_regular(
         Links::Followed => (fs::metadata(path), OFlag::empty()),
         Links::Refused => (fs::symlink_metadata(path), OFlag::O_NOFOLLOW),
     };
-    // Looked at before as well, because opening alone can make a device do something.
+    // Checked before opening as well, because opening alone can make a device do something.
     match found {
         Ok(found) => accept_regular(&found)?,
-        // With these options it may be created.
+        // The file is missing; `options` may create it.
         Err(error) if error.kind() == ErrorKind::NotFound => {}
         Err(error) => return Err(error),
     }
@@ -131,7 +131,7 @@ mod tests {
     use nix::unistd::mkfifo;
     use std::path::PathBuf;
 
-    /// One of each kind, and a link to a regular file.
+    /// Creates a regular file, a named pipe, a link to the file and a directory.
     fn zoo(root: &Path) -> [PathBuf; 4] {
         let [file, pipe, link, directory] =
             ["file", "pipe", "link", "directory"].map(|name| root.join(name));

@@ -1,4 +1,4 @@
-//! Directories for results, in which a command finds nothing but what it has written there itself.
+//! Directories for results, which may hold nothing but what the command itself wrote there.
 
 use super::FileError;
 use super::draft::{is_draft, is_temporary};
@@ -8,29 +8,29 @@ use std::ffi::OsStr;
 use std::fs::{self, FileType};
 use std::path::{Path, PathBuf};
 
-/// Largest witness that is read, in bytes.
+/// Size limit for witness files, in bytes.
 const LARGEST_WITNESS: u64 = 1 << 28;
 
-/// The files that a command writes into a directory for its results, by which it knows the directory again.
+/// The files that a command writes into a directory for its results, by which it recognises the directory later.
 ///
-/// A directory is the command's own if it is empty, or if the witness is there, and nothing else but files of the layout.
-/// Any other is refused, so that nothing of anybody else is ever replaced, removed or mistaken for a result.
+/// A directory is the command's own if it is empty, or if it holds the witness and nothing else but files of the
+/// layout. Any other is refused, so that nobody else's files are ever replaced, removed or mistaken for results.
 pub struct Layout {
-    /// The file that is written first, so that wherever there is a file there is the witness.
+    /// The file that is written first, so that a directory with any of the files has the witness.
     pub witness: &'static str,
     /// Whether this program wrote a witness with this content.
     pub is_ours: fn(&[u8]) -> bool,
     /// The other files, as paths in the directory; one `*` in a name stands for letters, digits, `-`, `_` and `.`.
     pub files: Vec<String>,
-    /// Whether others may put what they like into the directory once the witness is there. Nothing is replaced then but
-    /// the files of the layout.
+    /// Whether others may put anything into the directory once the witness is there. Then only files of the layout
+    /// are replaced.
     pub shared: bool,
-    /// The beginning of the name of temporary directories, which a killed program leaves behind.
+    /// Prefix of the names of temporary directories, which a killed program leaves behind.
     pub scratch: Option<&'static str>,
 }
 
 impl Layout {
-    /// Tables: the JSON table `witness`, and `files`.
+    /// Returns the layout of a command that writes tables: the JSON table `witness`, and `files`.
     pub fn tables(witness: &'static str, files: &[&str]) -> Self {
         Self {
             witness,
@@ -41,7 +41,7 @@ impl Layout {
         }
     }
 
-    /// Creates `directory`, or makes sure that it is one of this layout, and that files can be written there.
+    /// Creates `directory`, or checks that it is one of this layout; then checks that files can be written there.
     ///
     /// # Errors
     /// If the directory holds anything else, or cannot be written to.
@@ -58,7 +58,7 @@ impl Layout {
         Ok(())
     }
 
-    /// The results in `directory`; an error if there is anything else.
+    /// Lists the results in `directory`; fails if it holds anything else.
     fn results(&self, directory: &Path) -> Result<Vec<(PathBuf, FileType)>, FileError> {
         let mut results = Vec::new();
         let mut open = vec![PathBuf::new()];
@@ -81,7 +81,7 @@ impl Layout {
         Ok(results)
     }
 
-    /// Whether the command may have written what is at `path`, relative to the directory.
+    /// Whether the command may have written what lies at `path`, relative to the directory.
     fn knows(&self, path: &Path, kind: FileType) -> bool {
         let Some(path_text) = path.to_str() else {
             return false;
@@ -145,7 +145,7 @@ fn is_own_draft(path: &Path) -> bool {
     name.is_some_and(is_draft)
 }
 
-/// Whether `path` is `name`, in which one `*` stands for any letters, digits, `-`, `_` and `.`.
+/// Whether `path` matches `name`, in which one `*` stands for one or more letters, digits, `-`, `_` and `.`.
 fn matches(name: &str, path: &str) -> bool {
     let Some((before, after)) = name.split_once('*') else {
         return name == path;
@@ -156,7 +156,8 @@ fn matches(name: &str, path: &str) -> bool {
     middle.is_some_and(|middle| !middle.is_empty() && middle.bytes().all(plain))
 }
 
-/// Everything in `root` below the path `directory` there, by its path and its kind. Symbolic links are not followed.
+/// Lists the entries of `directory` by path and kind, sorted by path. All paths are relative to `root`; symbolic
+/// links are not followed.
 fn below(root: &Path, directory: &Path) -> std::io::Result<Vec<(PathBuf, FileType)>> {
     let mut found = Vec::new();
     for entry in fs::read_dir(root.join(directory))? {
@@ -183,7 +184,7 @@ mod tests {
 
     const WITNESS: &str = "{\n  \"schema\": \"tristack/table/1\"";
 
-    /// Whether a directory with these files is accepted; a name that ends in `/` is a directory.
+    /// Claims a directory with these files; a name that ends in `/` is a directory.
     fn claim(files: &[(&str, &str)]) -> Result<(), String> {
         let root = tempfile::tempdir().unwrap();
         for (name, content) in files {

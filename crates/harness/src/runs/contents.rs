@@ -1,4 +1,4 @@
-//! The contents of a store: each entry with the task and the program that it is of.
+//! The contents of a store: each entry with the task that it answers and the program that made it.
 
 use super::entry::read_origin;
 use super::impacts::{ImpactRun, read_impact};
@@ -19,16 +19,16 @@ use std::path::Path;
 /// Entries that are read at the same time.
 const THREADS: usize = 4;
 
-/// An entry of a store, and what is known of it without its results.
+/// An entry of a store, and what is known of it without reading its results.
 #[derive(Debug, Clone)]
 pub struct Content {
     /// Its place, files and time.
     pub entry: StoredEntry,
-    /// What it is of; an error where it cannot be read.
+    /// The code and the task behind it; an error if they cannot be read.
     pub origin: Result<Origin, String>,
 }
 
-/// What an entry is of.
+/// The code and the task behind an entry.
 #[derive(Debug, Clone)]
 pub struct Origin {
     /// Name of the code.
@@ -69,7 +69,7 @@ impl fmt::Display for StoredTask {
 }
 
 impl StoredTask {
-    /// The address under which the store would keep the result of `code`.
+    /// Returns the address under which the store would keep the result of `code`.
     fn address(&self, code: &dyn InstalledCode) -> String {
         match self {
             Self::Case(case) => ScheduledTask::address(case, code),
@@ -87,7 +87,7 @@ impl Content {
         Some(&self.origin.as_ref().ok()?.code)
     }
 
-    /// The case, of a run.
+    /// Returns the case if the entry is a run.
     pub fn case(&self) -> Option<&Case> {
         match self.origin.as_ref().ok()?.task.as_ref()? {
             StoredTask::Case(case) => Some(case),
@@ -96,10 +96,10 @@ impl Content {
     }
 }
 
-/// The contents of the store at `root`, by kind and name; `None` if there is no store. Nothing is created.
+/// Lists the contents of the store at `root` by kind and name; returns `None` if there is no store. Creates nothing.
 ///
 /// # Errors
-/// If it is no store, or not to be trusted, or cannot be read.
+/// If it is no store, is not to be trusted, or cannot be read.
 pub fn contents(root: &Path, sharing: Sharing) -> Result<Option<Vec<Content>>, StoreError> {
     let Some(entries) = entries(root, sharing)? else {
         return Ok(None);
@@ -147,7 +147,7 @@ fn origin(entry: &StoredEntry) -> Result<Origin, FileError> {
                 provenance: None,
             })
         }
-        // No other code has any.
+        // Only the native code has checkpoints.
         EntryKind::Checkpoint => Ok(Origin::of_native(None)),
         EntryKind::FailedRun => code_of_directory(path),
         EntryKind::Quarantine => Err(FileError::content(path, "it was put aside as damaged")),
@@ -160,7 +160,7 @@ struct Made {
     provenance: Provenance,
 }
 
-/// The code after which the schedule has named the directory of a run.
+/// Returns the code after which the schedule named the directory of a run.
 fn code_of_directory(path: &Path) -> Result<Origin, FileError> {
     let name = path.file_name().unwrap_or_default().to_string_lossy();
     let code = name.rsplit_once('-').map(|(code, _)| code.to_owned());
@@ -194,14 +194,14 @@ impl Origin {
     }
 }
 
-/// The codes as they are installed here, each looked up when it is first asked for.
+/// The codes as they are installed here; each is looked up when it is first asked for.
 pub struct CodesOfToday {
     known: Vec<Code>,
     builds: BTreeMap<String, Vec<Box<dyn InstalledCode>>>,
 }
 
 impl CodesOfToday {
-    /// The `known` codes.
+    /// Starts with the `known` codes, none of them looked up yet.
     pub fn new(known: Vec<Code>) -> Self {
         Self {
             known,
@@ -209,9 +209,9 @@ impl CodesOfToday {
         }
     }
 
-    /// Whether the same task would have another address today, because this program, the code or its deck have changed
-    /// since. `None` where that is not known: the code is unknown, not installed or broken, or the entry does not say its
-    /// task.
+    /// Whether the same task would have another address today, because this program, the code or its deck has
+    /// changed. `None` if that is not known: the code is unknown, not installed or broken, or the entry does not say
+    /// its task.
     pub fn is_outdated(&mut self, content: &Content) -> Option<bool> {
         let origin = content.origin.as_ref().ok()?;
         let task = origin.task.as_ref()?;
@@ -224,14 +224,15 @@ impl CodesOfToday {
         if working.iter().any(is_own) {
             return Some(false);
         }
-        // It may be of a build that cannot be asked.
+        // It may come from a build that cannot be asked.
         let is_known = !working.is_empty() && broken.is_empty();
         is_known.then_some(true)
     }
 }
 
-/// The builds of the one of `known` codes with this `name` whose results the store keeps under it: the usual one, and the one with more
-/// digits that explains round-off, if it is there. None if the usual one is not installed.
+/// Finds the builds whose results the store keeps under this `name`, which is one of the `known` codes: the usual
+/// build and, if it is installed, the one with more digits that explains round-off. Returns none if the usual one is
+/// not installed.
 fn builds_of(known: &[Code], name: &str) -> Vec<Box<dyn InstalledCode>> {
     let Some(code) = known.iter().find(|code| code.as_str() == name) else {
         return Vec::new();

@@ -18,15 +18,15 @@ use std::path::Path;
 const CASE: &str = "case.json";
 const SERIES: &str = "series.csv";
 const PROVENANCE: &str = "provenance.json";
-/// Beginning of the name of a summary, which goes on with a digest of the sources that made it.
+/// Prefix of the name of a summary; a digest of the sources that made it follows.
 const SUMMARY: &str = "summary-";
 const SUMMARY_DIGEST: usize = 16;
 const ENDING: &str = ".json";
 const DRAFT: &str = ".draft-";
-/// Largest file of an entry that is read, in bytes: four times the longest result of a code.
+/// Size limit for files of an entry, in bytes: four times the longest result of a code.
 const LARGEST: u64 = 1 << 30;
 
-/// Whether an entry has a file called `name`: its own four, and a summary for each version of the sources that read it.
+/// Whether `name` is that of a file of an entry: one of its own four, or a summary by any version of the sources.
 pub(super) fn is_entry_file(name: &str) -> bool {
     let summary = name.strip_prefix(SUMMARY);
     let digest = summary.and_then(|rest| rest.strip_suffix(ENDING));
@@ -36,7 +36,7 @@ pub(super) fn is_entry_file(name: &str) -> bool {
     is_summary || [CASE, SERIES, PROVENANCE, CHECKSUMS].contains(&name)
 }
 
-/// Reads the case and the provenance of the entry in `directory`, without its series and unchecked.
+/// Reads the case and the provenance of the entry in `directory`, without its series and without checking digests.
 ///
 /// # Errors
 /// If one of them is missing or malformed.
@@ -65,7 +65,7 @@ pub fn read_entry(directory: &Path) -> Result<Option<Run>, FileError> {
     }))
 }
 
-/// Whether there is a directory; anything else in its place is an error.
+/// Whether the directory exists; anything else in its place is an error.
 fn is_there(directory: &Path) -> Result<bool, FileError> {
     match fs::symlink_metadata(directory) {
         Err(error) if error.kind() == ErrorKind::NotFound => Ok(false),
@@ -78,8 +78,8 @@ fn is_there(directory: &Path) -> Result<bool, FileError> {
     }
 }
 
-/// Reads the summary of the entry in `directory`; `None` if there is none. Beside its series an entry has the summary
-/// that today's sources make of it, or is given one, by way of a draft in the directory `drafts`.
+/// Reads the summary of the entry in `directory`; returns `None` if there is no entry. If the entry has no summary by
+/// today's sources, makes one from its series and keeps it, through a draft in the directory `drafts`.
 ///
 /// # Errors
 /// If the entry is there but damaged, its series included.
@@ -103,12 +103,12 @@ pub(super) fn read_summary(
     };
     let checksums = read(&directory.join(CHECKSUMS))?;
     let summary = RunSummary::new(run);
-    // Without it the next reader is slower.
+    // If this fails, the next reader is slower.
     let _ = write_sealed(drafts, &path, &summary_json(&summary, &checksums));
     Ok(Some(summary))
 }
 
-/// A summary as it is kept.
+/// A summary as it is stored.
 #[derive(Serialize, Deserialize)]
 struct KeptSummary {
     /// The digests of the files that it was made of.
@@ -116,7 +116,7 @@ struct KeptSummary {
     summary: RunSummary,
 }
 
-/// The file with the summary. It belongs to the sources that read it off the series.
+/// Returns the name of the summary file, which contains the digest of the sources that read it off the series.
 fn summary_file() -> String {
     format!("{SUMMARY}{}{ENDING}", &SOURCE_DIGEST[..SUMMARY_DIGEST])
 }
@@ -129,8 +129,8 @@ fn summary_json(summary: &RunSummary, checksums: &[u8]) -> Vec<u8> {
     serde_json::to_vec(&kept).expect("plain data has a JSON form")
 }
 
-/// Reads files of the entry in `directory` by their names, and refuses those that do not have the digest with which
-/// they were written.
+/// Returns a reader of the files of the entry in `directory` by name. It refuses files that no longer have the digest
+/// with which they were written.
 fn checked_files(
     directory: &Path,
 ) -> Result<impl Fn(&str) -> Result<Vec<u8>, FileError>, FileError> {
@@ -143,8 +143,8 @@ fn checked_files(
     })
 }
 
-/// Writes `run` as the entry in `target`, in place of an older one, by way of a draft in the directory `drafts`,
-/// which the caller cleans up. The entry gets the permissions `mode`, which the umask restricts further.
+/// Writes `run` as the entry in `target`, replacing an older one, through a draft in the directory `drafts`, which
+/// the caller cleans up. The entry gets the permissions `mode`, which the umask restricts further.
 ///
 /// # Errors
 /// If the file system refuses; an older entry is then unchanged.
@@ -180,7 +180,7 @@ fn write_files(directory: &Path, run: &Run) -> Result<(), FileError> {
     sync_directory(directory)
 }
 
-/// Renames `draft` to `target`; an older `target` takes the place of the draft in the same instant.
+/// Renames `draft` to `target`; if an older `target` exists, the two change places in the same instant.
 fn put_in_place(draft: &Path, target: &Path) -> Result<(), FileError> {
     let rename = |flags| renameat2(AT_FDCWD, draft, AT_FDCWD, target, flags);
     let renamed = rename(RenameFlags::RENAME_NOREPLACE).or_else(|error| match error {
@@ -188,7 +188,7 @@ fn put_in_place(draft: &Path, target: &Path) -> Result<(), FileError> {
         error => Err(error),
     });
     let renamed = match renamed {
-        // Network file systems know plain renames only.
+        // Network file systems support plain renames only.
         Err(nix::Error::EINVAL) => put_in_place_by_steps(draft, target),
         renamed => renamed.map_err(Into::into),
     };
@@ -215,7 +215,7 @@ fn read(path: &Path) -> Result<Vec<u8>, FileError> {
     read_bounded(path, LARGEST, Links::Refused).map_err(FileError::reading(path))
 }
 
-/// The series of `case` in the `content` of the file at `path`.
+/// Reads the series of `case` from the `content` of the file at `path`.
 pub(super) fn parse_series(path: &Path, content: &[u8], case: &Case) -> Result<Series, FileError> {
     let series = Series::read(content, case);
     series.map_err(FileError::series(path))

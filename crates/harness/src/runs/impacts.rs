@@ -1,4 +1,4 @@
-//! Impacts in the schedule: what is kept of each is what is read off its motion.
+//! Impacts in the schedule; what is read off the motion of each is kept, not the motion.
 
 use super::{Kind, Progress, Reading, Recorded, RecordedError, ScheduledTask, Store};
 use crate::code::{Code, Failure, Finished, Identity, InstalledCode, RunContext};
@@ -50,7 +50,7 @@ struct Kept {
     reading: ImpactReading,
 }
 
-/// The impact in the `text` of the result at `path`, and the program that made it.
+/// Reads the impact from the `text` of the result at `path`, and the program that made it.
 ///
 /// # Errors
 /// If it is malformed.
@@ -78,7 +78,7 @@ impl ImpactRun {
 
 type Outcome = Result<ImpactReading, Box<Failure>>;
 
-/// Whether motions are made faster than they are read from the store, as those of the native code.
+/// Whether motions are made faster than they are read from the store, as with the native code.
 fn is_faster_made(code: &dyn InstalledCode) -> bool {
     code.name().is_native()
 }
@@ -137,7 +137,7 @@ impl ScheduledTask for ImpactRun {
         Err(recorded.absent(code, "impact"))
     }
 
-    /// All at once, where the code can; after a failure one by one, so that the others are carried out.
+    /// Carries out all at once if the code can; after a failure one by one, so that the others are still carried out.
     fn carry_out(
         runs: &[Self],
         code: &dyn InstalledCode,

@@ -1,4 +1,4 @@
-//! Native runs of which only what was observed is kept: event runs, and those of the authors' program.
+//! Native runs of which only the observation is kept: event runs, and runs of the authors' program.
 
 use super::{Kind, Progress, Reading, Recorded, RecordedError, ScheduledTask, Store};
 use crate::code::{Code, Failure, Finished, Identity, InstalledCode, RunContext, observe, repeat};
@@ -32,7 +32,7 @@ pub trait ObservedRun:
 impl ObservedRun for EventRun {
     type Observation = Observation;
 
-    /// A single stack, without vectors.
+    /// For a single stack, without vectors.
     const SECONDS_PER_STEP: f64 = 5e-8;
 
     fn address(&self) -> String {
@@ -53,7 +53,7 @@ impl ObservedRun for EventRun {
 impl ObservedRun for PublishedRun {
     type Observation = PublishedForces;
 
-    /// In lanes.
+    /// For runs in lanes.
     const SECONDS_PER_STEP: f64 = 2e-8;
 
     fn address(&self) -> String {
@@ -77,10 +77,10 @@ struct Kept<Run, Observation> {
     observation: Observation,
 }
 
-/// The run in the `text` of the result at `path`.
+/// Reads the run from the `text` of the result at `path`.
 ///
 /// # Errors
-/// If it is malformed, or a run of another kind.
+/// If the text is malformed, or the run is of another kind.
 pub(super) fn observed_run<Run: ObservedRun>(text: &[u8], path: &Path) -> Result<Run, FileError> {
     parse_json::<Kept<Run, Run::Observation>>(text, path).map(|kept| kept.run)
 }

@@ -1,8 +1,8 @@
-//! The same task for many items, on several threads.
+//! Carries out the same task for many items on several threads.
 
 use rayon::prelude::*;
 
-/// The results of `task` for all `items`, in their order, on at most `threads` threads.
+/// Returns the results of `task` for all `items`, in their order, on at most `threads` threads.
 pub fn in_parallel<I: Sync, T: Send>(
     items: &[I],
     threads: usize,
@@ -13,7 +13,7 @@ pub fn in_parallel<I: Sync, T: Send>(
         return items.iter().map(task).collect();
     }
     match rayon::ThreadPoolBuilder::new().num_threads(threads).build() {
-        // Tasks differ in length, so that each is handed out alone.
+        // Tasks differ in length, so each is handed out by itself.
         Ok(pool) => pool.install(|| items.par_iter().with_max_len(1).map(&task).collect()),
         // The system refuses more threads.
         Err(_) => items.iter().map(task).collect(),

@@ -29,7 +29,7 @@ pub struct Answer {
     pub motion: Motion,
 }
 
-/// The address of the record of `code`: that of its identity and of its decks.
+/// Returns the address of the record of `code`, which depends on its identity and its decks.
 pub(crate) fn probe_address(code: &dyn InstalledCode) -> String {
     let decks = [TaskKind::Motion, TaskKind::SpheresMotion];
     let decks = decks.map(|kind| code.name().files_hash(kind));
@@ -37,11 +37,12 @@ pub(crate) fn probe_address(code: &dyn InstalledCode) -> String {
     sha256_hex(parts.to_string().as_bytes())
 }
 
-/// Spins to the slip threshold are measured, and may differ between machines in the last of their eleven
-/// digits; a tenth of the distance from the slip threshold does not matter.
+/// Largest relative difference between spins that count as the same. Spins to the slip threshold are measured, and
+/// may differ between machines in the last of their eleven digits; a tenth of the distance from the slip threshold
+/// does not matter.
 const SAME_SPIN: f64 = 1.1e-11;
 
-/// Whether two micro-tests are the same but for the rounding of their spins.
+/// Whether two micro-tests are the same up to the rounding of their spins.
 fn is_same(left: &ContactTest, right: &ContactTest) -> bool {
     let mut with_same_spins = *left;
     let mut alike = true;
@@ -64,12 +65,12 @@ impl ProbeRecord {
         Ok(record)
     }
 
-    /// JSON on one line.
+    /// Returns JSON on one line.
     pub fn to_json(&self) -> String {
         serde_json::to_string(self).expect("plain data has a JSON form") + "\n"
     }
 
-    /// The outcomes of `tests`, in their order, if every one of them is there.
+    /// Returns the outcomes of `tests` in their order, if all of them are there.
     pub fn answer(&self, tests: &[ContactTest]) -> Option<Vec<Motion>> {
         let answers = tests.iter().map(|test| {
             let mut known = self.answers.iter();
@@ -79,8 +80,8 @@ impl ProbeRecord {
         answers.collect()
     }
 
-    /// The first answer whose inputs are not those of today, of which `input_hash` gives the hash. It is called with
-    /// the recorded micro-test, whose spins may differ in their last digits from those of today.
+    /// Returns the first answer whose inputs differ from today's, which `input_hash` hashes. It is called with the
+    /// recorded micro-test, whose spins may differ in their last digits from those of today.
     pub fn outdated(&self, input_hash: impl Fn(&ContactTest) -> String) -> Option<&Answer> {
         let mut answers = self.answers.iter();
         answers.find(|answer| answer.input_hash != input_hash(&answer.test))

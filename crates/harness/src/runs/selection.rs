@@ -1,24 +1,24 @@
-//! Entries of a store by what is asked of them.
+//! Selects entries of a store.
 
 use super::contents::{CodesOfToday, Content};
 use super::store::EntryKind;
 use std::time::SystemTime;
 
-/// What entries have to be; all that is asked for must hold.
+/// Conditions on entries; all that are set must hold.
 #[derive(Debug, Clone, Default)]
 pub struct Selection {
-    /// One of these kinds; any kind if there are none.
+    /// The entry is of one of these kinds; of any kind if there are none.
     pub kinds: Vec<EntryKind>,
-    /// Of one of these codes; of any if there are none.
+    /// It is of one of these codes; of any code if there are none.
     pub codes: Vec<String>,
-    /// Written before this moment.
+    /// It was written before this moment.
     pub before: Option<SystemTime>,
-    /// Of no use to this program and the codes as they are installed.
+    /// It is of no use to this program and the codes as they are installed.
     pub outdated: bool,
 }
 
 impl Selection {
-    /// Those of `contents` that are what is asked for; the codes of `today` say what is outdated.
+    /// Returns those `contents` that meet the conditions; the codes of `today` say what is outdated.
     pub fn of(&self, contents: Vec<Content>, today: &mut CodesOfToday) -> Vec<Content> {
         let chosen = contents
             .into_iter()
@@ -35,7 +35,7 @@ impl Selection {
     }
 }
 
-/// Of `contents` the oldest, as many as have to go so that no more than `allowed` of `total` bytes are left.
+/// Returns the oldest `contents`, as many as have to go so that at most `allowed` of `total` bytes are left.
 pub fn oldest_beyond(mut contents: Vec<Content>, total: u64, allowed: u64) -> Vec<Content> {
     contents.sort_by(|one, other| {
         let key = |content: &Content| (content.entry.made, content.entry.kind);

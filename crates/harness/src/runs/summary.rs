@@ -1,4 +1,4 @@
-//! The summary of a run, kept where its series is not.
+//! The summary of a run, which takes the place of its series where that is not kept or not read.
 
 use super::{Reading, Recorded, RecordedError, Store};
 use crate::code::{Code, Identity, InstalledCode, Provenance, Run};
@@ -19,7 +19,8 @@ pub struct RunSummary {
     pub estimates: YieldEstimates,
     /// Wall force at the end, in m g.
     pub last_force: f64,
-    /// c, without damping, between the bottom cylinders when the compression begins, in m g; absent from older recordings.
+    /// Contact force c between the bottom cylinders, without damping, when the compression begins, in m g; absent
+    /// from older recordings.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub contact_force: Option<f64>,
     /// x₂, y₁ and y₂ when the compression begins, in r; absent from older recordings.
@@ -34,7 +35,7 @@ pub struct RunSummary {
 }
 
 impl RunSummary {
-    /// The summary of `run`.
+    /// Summarises `run`.
     pub fn new(run: Run) -> Self {
         let read = Summary::read(&run.series, &run.case);
         Self {

@@ -1,4 +1,4 @@
-//! Campaigns whose runs are made elsewhere: the plan of them, in rounds where later runs depend on earlier results.
+//! Plans of the runs of a code that are made elsewhere, in rounds where later runs depend on earlier results.
 
 use super::convention::{ROUNDS, probe, settled_by_files};
 use super::yield_force::{Measurement, Method, planned};
@@ -43,14 +43,14 @@ pub struct Plan {
     pub version: Option<String>,
     /// The rows that are to be judged.
     pub rows: Vec<PlannedRow>,
-    /// Whether there are runs that can only be planned once the planned micro-tests have results: further micro-tests,
-    /// and the runs of a code that leaves something out of its convention.
+    /// Whether more runs can be planned once the planned micro-tests have results: further micro-tests, and the runs
+    /// of a code that leaves something out of its convention.
     pub continues: bool,
     /// Steps of all runs.
     pub steps: u64,
     /// Duration of all runs on one core in seconds, by the forecast of the manifest.
     pub seconds: f64,
-    /// The runs: the micro-tests first.
+    /// The runs, micro-tests first.
     pub runs: Vec<PlannedRun>,
 }
 
@@ -58,7 +58,7 @@ impl Plan {
     /// Reads the plan in `directory`; `None` if there is none.
     ///
     /// # Errors
-    /// If there is one that this version cannot read.
+    /// If a plan exists that this version cannot read.
     pub fn read(directory: &Path) -> Result<Option<Self>, FileError> {
         let path = directory.join(PLAN);
         let content = match read_bounded(&path, LARGEST_PLAN, Links::Refused) {
@@ -75,7 +75,7 @@ impl Plan {
         Ok(Some(plan))
     }
 
-    /// Refuses what no plan says: somebody may have edited it.
+    /// Refuses invalid stacks and runs: somebody may have edited the file.
     fn check(&self) -> Result<(), String> {
         for row in &self.rows {
             row.stack.validate().map_err(|error| error.to_string())?;
@@ -83,8 +83,9 @@ impl Plan {
         self.runs.iter().try_for_each(PlannedRun::check)
     }
 
-    /// Plans `rows` for `code`, whose results are expected below `root`, and reads the results that are there already:
-    /// the second round of micro-tests is planned by the first, and what is left out of the convention by both.
+    /// Plans `rows` for `code`, whose results are expected below `root`. Reads the results that are already there:
+    /// those of the first round of micro-tests determine the second, and both determine what the manifest leaves out
+    /// of the convention.
     ///
     /// # Errors
     /// If the code cannot run a task.
@@ -100,7 +101,7 @@ impl Plan {
             let runs: Vec<PlannedRun> = prepared.iter().map(|one| one.run.clone()).collect();
             settled_by_files(&ResultFiles::new(code.clone(), "", root, &runs))
         });
-        // Without micro-tests nothing will settle it.
+        // Without micro-tests nothing will settle the convention.
         let is_open = settled.is_none() && !prepared.is_empty();
         if !is_open {
             let settled = settled.unwrap_or_else(|| code.unmeasured("it has not been measured"));
@@ -127,24 +128,25 @@ impl Plan {
         Ok((plan, prepared))
     }
 
-    /// The measurements that the rows stand for, by `code`.
+    /// The measurements of the rows by `code`.
     pub fn measurements(&self, code: &SettledCode) -> Vec<Measurement> {
         let rows = self.rows.iter();
         rows.map(|row| row.measurement(code)).collect()
     }
 
-    /// The results of `code`, said to be of this `version`, below `root`.
+    /// The results of `code` below `root`, attributed to this `version`.
     pub fn results(&self, code: Code, version: &str, root: &Path) -> ResultFiles {
         ResultFiles::new(code, version, root, &self.runs)
     }
 
-    /// What is wrong with the result of each run; nothing where it is there and usable.
+    /// What is wrong with the result of each run; `None` where it exists and is usable.
     pub fn troubles(&self, code: &Code, root: &Path) -> Vec<Option<FailureKind>> {
         let runs = self.runs.iter();
         runs.map(|run| run.trouble(code, root)).collect()
     }
 
-    /// What the program of the first run without a result says on standard error, if it says anything.
+    /// What the first run without a result has written last to standard error; runs that have written nothing are
+    /// skipped.
     pub fn first_complaint(&self, troubles: &[Option<FailureKind>], root: &Path) -> Option<String> {
         let mut runs = self.runs.iter().zip(troubles);
         runs.find_map(|(run, trouble)| match trouble {
@@ -160,7 +162,7 @@ impl Plan {
 }
 
 impl PlannedRow {
-    /// The row that `measurement` is.
+    /// The row of `measurement`.
     pub fn of(measurement: &Measurement) -> Self {
         Self {
             stack: measurement.stack,
@@ -174,7 +176,7 @@ impl PlannedRow {
         planned(code, &self.stack, convention, self.method)
     }
 
-    /// The runs of the row, in directories named after the stack, and the place of the run in its measurement.
+    /// The runs of the row, in directories named after the stack and the number of the run in its measurement.
     fn runs(&self, code: &SettledCode) -> Result<Vec<PreparedRun>, InvalidValue> {
         let (mu, stiffness) = (self.stack.floor_friction, self.stack.stiffness);
         let (mu, stiffness) = (exact(mu), exact(stiffness));
@@ -187,8 +189,8 @@ impl PlannedRow {
     }
 }
 
-/// The micro-tests of all rounds that can be planned, and whether there are more: those of a round are planned by the
-/// results of the one before.
+/// The micro-tests of all rounds that can be planned already, and whether further rounds follow: the results of a
+/// round determine the tests of the next.
 fn micro_tests(code: &Code, root: &Path) -> Result<(Vec<PreparedRun>, bool), InvalidValue> {
     if code.check_task(TaskKind::Motion).is_err() {
         return Ok((Vec::new(), false));

@@ -1,10 +1,11 @@
-//! Series are held to the laws of mechanics before anything is concluded from them.
+//! Holds series to the laws of mechanics before anything is concluded from them.
 
 use super::verdict::{Ground, Grounds};
 use crate::series::{Deviation, Law, Mechanics, not_tested};
 
 impl Grounds {
-    /// Adds what `mechanics` says of the series of each run, in order; absent where a run was recorded without it.
+    /// Adds the violations that the `mechanics` of each run shows, in order, and a doubt where a run was recorded
+    /// without it.
     pub(super) fn hold_to_mechanics<'a>(
         &mut self,
         mechanics: impl IntoIterator<Item = Option<&'a Mechanics>>,
@@ -23,7 +24,7 @@ impl Grounds {
         }
     }
 
-    /// Doubts an agreement that some checks could not contradict, because the code does not report the columns `absent`.
+    /// Adds a doubt about the checks that could not be made because the code does not report the columns `absent`.
     pub(super) fn doubt_what_is_not_tested(&mut self, absent: &[String]) {
         if absent.is_empty() {
             return;

@@ -1,7 +1,8 @@
 //! Studies: each names the runs that it needs and evaluates them.
 //!
-//! [`Campaign`] does everything between the two for all of them: runs from the store, recorded runs, codes on
-//! all cores, contradicted conventions. [`Grounds`] derives the verdict on a row.
+//! [`Campaign`] does everything in between for all of them: it takes runs from the store or recorded runs, starts
+//! codes on all cores, and withdraws judgements whose convention is contradicted. [`Grounds`] derives the verdict on
+//! a row.
 
 pub mod atlas;
 pub mod check;

@@ -1,4 +1,4 @@
-//! The pipeline of every study: planned runs, carried out or recorded, evaluation, verdict.
+//! The pipeline of every study: plan runs, carry them out or take recorded ones, evaluate them, derive the verdict.
 
 use super::convention::{
     Probed, arms_are_measured, contradictions, is_contradicted, other_program, probe_all,
@@ -22,7 +22,7 @@ pub trait Study {
     /// The code that is judged, under the convention that the study holds it to.
     fn code(&self) -> SettledCode;
 
-    /// Whether its result depends on what is `unknown` of the convention of the code.
+    /// Whether its result depends on `unknown`, a part of the convention of the code that is not known.
     fn depends_on(&self, _unknown: &Unknown) -> bool {
         true
     }
@@ -97,7 +97,7 @@ pub struct Judged<S, F> {
 }
 
 impl<S: Study> Judged<S, S::Finding> {
-    /// Withdraws a judgement that depends on a part of the convention which neither the manifest nor the probe says.
+    /// Withdraws a judgement that depends on a part of the convention that neither the manifest nor the probe gives.
     fn hold_to_settled(&mut self) {
         for unknown in &self.study.code().settled().unknown {
             if self.study.depends_on(unknown) {
@@ -119,7 +119,7 @@ impl<S, F> Judged<S, F> {
         self.grounds.verdict()
     }
 
-    /// Whether it is based on recorded runs.
+    /// Whether its numbers come from recorded runs.
     pub fn is_recorded(&self) -> bool {
         self.source == Source::Recorded && self.verdict() != Verdict::Missing
     }
@@ -135,7 +135,7 @@ impl<S, F> Judged<S, F> {
     }
 }
 
-/// Carries out studies: the codes that take part, the runs that exist, and the conventions that were measured.
+/// Carries out studies with the codes that take part; probes each code once, when its convention is first needed.
 pub struct Campaign<'a> {
     codes: &'a [SelectedCode],
     settings: &'a Settings<'a>,
@@ -171,8 +171,8 @@ impl<'a> Campaign<'a> {
             .collect()
     }
 
-    /// The codes under their settled conventions, in their order: as declared, or where a manifest leaves something out, as
-    /// their probes show.
+    /// The codes in order, each under its settled convention: as declared or, where its manifest leaves something
+    /// out, as its probe shows.
     pub fn settled(&self) -> Vec<SettledCode> {
         let codes = self.codes.iter().enumerate();
         let settled = codes.map(|(place, selected)| {
@@ -187,13 +187,13 @@ impl<'a> Campaign<'a> {
         self.settings
     }
 
-    /// The result of the probe of each code, in their order; measured once.
+    /// The result of the probe of each code, in order; measured once.
     pub fn probes(&self) -> &[Probed] {
         self.probes
             .get_or_init(|| probe_all(self.codes, self.settings, self.progress))
     }
 
-    /// The same by value.
+    /// The results of the probes by value.
     pub fn into_probes(self) -> Vec<Probed> {
         self.probes();
         self.probes.into_inner().unwrap_or_default()
@@ -207,7 +207,7 @@ impl<'a> Campaign<'a> {
         read_all(workloads, self.codes, self.settings, self.progress)
     }
 
-    /// The same for workloads of the native code, which need not take part in the campaign.
+    /// Like [`Self::read`] for workloads of the native code, which need not take part in the campaign.
     pub fn read_native<R: Reading>(
         &self,
         workloads: &[Workload<R::Task>],
@@ -228,7 +228,7 @@ impl<'a> Campaign<'a> {
         judged.flatten().collect()
     }
 
-    /// What carrying out `studies` would do, beside the micro-tests.
+    /// What carrying out `studies` would involve, apart from the micro-tests.
     pub fn outlook<S: Study>(&self, studies: &[S]) -> Outlook {
         let workloads: Vec<Workload<TaskOf<S>>> = studies.iter().flat_map(S::workloads).collect();
         outlook::<S::Reading>(&workloads, self.codes, self.settings)
@@ -264,7 +264,7 @@ impl<'a> Campaign<'a> {
                 let evaluation = judged.study.evaluate(runs);
                 judged.finding = Some(evaluation.finding);
                 judged.grounds = evaluation.grounds;
-                // Where nothing yields in theory nothing is run, and there is no judgement to withdraw.
+                // If nothing yields in theory, nothing is run, and there is no judgement to withdraw.
                 if let Some(probed) = probed.filter(|_| !identities.is_empty()) {
                     judged.grounds.hold_to_probe(probed, &identities);
                     if probed.is_ok() {
@@ -274,7 +274,7 @@ impl<'a> Campaign<'a> {
             }
             Err(missing) => {
                 judged.grounds = missing;
-                // What the probe has found is found, whatever the runs did.
+                // A contradiction that the probe has found counts even if runs are missing.
                 if let Some(probed) = probed.filter(|probed| is_contradicted(probed)) {
                     judged.grounds.hold_to_probe(probed, &identities);
                 }

@@ -1,18 +1,18 @@
-//! The largest error of a yield force that agrees.
+//! The largest error at which a yield force agrees.
 
 /// Root mean square of one rounding, in units of the last place: 1/√12.
 pub(crate) const ROUNDING: f64 = 0.288_675_134_594_812_9;
 
-/// Smallest tolerance, relative to F + 3: the accuracy that is guaranteed of the limit itself for arbitrary
-/// torque arms (crates/theory/tests/theory/golden.rs).
+/// Smallest tolerance, relative to F + 3: the guaranteed accuracy of the limit itself for arbitrary torque arms
+/// (crates/theory/tests/theory/golden.rs).
 pub const MIN_TOLERANCE: f64 = 1e-7;
 
 /// Largest tolerance, relative to F + 3: agreement between independent codes is worth the name at 1e-5.
 /// An uncertainty above it decides nothing.
 pub const MAX_TOLERANCE: f64 = 1e-5;
 
-/// The tolerance that goes with an uncertainty, both relative to F + 3: the uncertainty itself, but at
-/// least [`MIN_TOLERANCE`] and at most [`MAX_TOLERANCE`].
+/// The tolerance for an uncertainty, both relative to F + 3: the uncertainty itself, but at least [`MIN_TOLERANCE`]
+/// and at most [`MAX_TOLERANCE`].
 pub fn tolerance(uncertainty: f64) -> f64 {
     uncertainty.clamp(MIN_TOLERANCE, MAX_TOLERANCE)
 }

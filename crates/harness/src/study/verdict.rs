@@ -34,7 +34,7 @@ impl Verdict {
         Self::Failed,
     ];
 
-    /// The verdict on a number that is off by `error`, known to `uncertainty`, where `tolerance` is allowed.
+    /// The verdict on a number with this `error`, known to within `uncertainty`, where `tolerance` is allowed.
     pub fn of(error: f64, uncertainty: f64, tolerance: f64) -> Self {
         if error.abs() > tolerance.max(uncertainty) {
             Self::Differs
@@ -75,16 +75,16 @@ pub(crate) enum Ground {
         uncertainty: f64,
         /// Largest error that agrees.
         tolerance: f64,
-        /// Note for the case that it does not agree.
+        /// Note that is shown if it does not agree.
         note: Option<String>,
     },
-    /// A condition that must hold does.
+    /// A required condition holds.
     Held,
-    /// A condition that must hold does not.
+    /// A required condition is violated.
     Violation(String),
-    /// A reason against an agreement that decides nothing.
+    /// A reason to doubt an agreement; without a worse ground the row is inconclusive.
     Doubt(String),
-    /// Deviations up to `up_to` decide nothing.
+    /// Deviations up to `up_to` decide nothing; larger ones still differ.
     Blur {
         /// The largest deviation that decides nothing.
         up_to: f64,
@@ -110,7 +110,7 @@ pub(crate) enum Ground {
     },
 }
 
-/// Says that a `quantity` of a row exceeds its `tolerance`, with as many digits as show it.
+/// Says that a `quantity` of a row exceeds its `tolerance`, with enough digits to tell the two apart.
 fn exceeds(quantity: &str, value: f64, tolerance: f64) -> String {
     let shown = |digits: usize| [value, tolerance].map(|number| format!("{number:.digits$e}"));
     let told_apart = (1..17)
@@ -140,7 +140,7 @@ impl Ground {
         }
     }
 
-    /// The numbers of a comparison that does not agree, in words.
+    /// Describes in words the numbers of a comparison that does not agree; `None` for every other ground.
     fn comparison(&self) -> Option<String> {
         let &Self::Deviation {
             error,
@@ -222,7 +222,7 @@ impl Grounds {
     /// 1. A failed or missing run leaves nothing to judge.
     /// 2. Without the right reference, or where nothing can be decided, the row is inconclusive.
     /// 3. Otherwise the worst ground counts: no yield, then a deviation or violation, then a doubt.
-    /// 4. Without any comparison nothing agrees.
+    /// 4. Without any comparison or condition the row is inconclusive.
     pub fn verdict(&self) -> Verdict {
         let blurs = self.0.iter().map(|ground| match ground {
             Ground::Blur { up_to, .. } => *up_to,
@@ -411,7 +411,7 @@ mod tests {
             "the uncertainty 2.0e0 exceeds the tolerance 1.0e0"
         );
         assert_eq!(grounds(&[unsaid(0.1, 0.5)]).reason(), "");
-        // As many digits as tell them apart.
+        // With as many digits as tell them apart.
         assert_eq!(
             grounds(&[unsaid(1.004, 0.5)]).reason(),
             "the error 1.004e0 exceeds the tolerance 1.000e0"

@@ -20,7 +20,7 @@ pub(super) struct Unfinished {
     pub(super) checkpoint: Checkpoint,
 }
 
-/// Writes a checkpoint under the `address` that the run will have when it is finished; the store removes it then. If
+/// Writes a checkpoint under the `address` of the finished run; the store removes it when the run is finished. If
 /// writing fails, the run goes on without it.
 pub(super) fn keep(context: &RunContext, address: &str, run: &Unfinished) {
     if let Some(path) = path(context, address) {
@@ -29,7 +29,7 @@ pub(super) fn keep(context: &RunContext, address: &str, run: &Unfinished) {
     }
 }
 
-/// The checkpoint under `address`, if there is a readable one and the run is not to begin anew.
+/// Reads the checkpoint under `address`, if there is a readable one and the run is not to begin anew.
 pub(super) fn take_up(context: &RunContext, address: &str) -> Option<Unfinished> {
     if context.fresh {
         return None;

@@ -19,14 +19,14 @@ pub(super) struct Lanes<'a, 'f> {
     finished: Finished<'f, Run>,
     /// Run time of each run in a lane: its share of the time of the vector.
     open: BTreeMap<usize, Duration>,
-    /// End of the time that is shared out.
+    /// The moment up to which time has been shared out.
     shared: Instant,
     last_finished: Instant,
     last_kept: Instant,
 }
 
 impl<'a, 'f> Lanes<'a, 'f> {
-    /// Runs of the `cases` with these `indices`.
+    /// Prepares the runs of the `cases` with these `indices`.
     pub(super) fn new(
         native: &'a Native,
         cases: &'a [Case],
@@ -91,7 +91,7 @@ impl<'a, 'f> Lanes<'a, 'f> {
     }
 }
 
-/// The duration `seconds` from a file, limited to a range that `Duration` can hold.
+/// Converts `seconds` from a file, limited to a range that `Duration` can hold.
 fn duration(seconds: f64) -> Duration {
     const LONGEST: f64 = 1e10;
     Duration::try_from_secs_f64(seconds.min(LONGEST)).unwrap_or_default()

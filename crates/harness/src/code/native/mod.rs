@@ -47,7 +47,8 @@ impl Native {
         }
     }
 
-    /// Runs all of `cases` that may share a vector, in its lanes; a single one runs faster without vectors.
+    /// Runs `cases` in vector lanes, those that may share a vector together; a single one runs faster without
+    /// vectors.
     fn run_in_lanes(&self, cases: &[Case], context: &RunContext, finished: Finished<Run>) {
         let mut left: Vec<usize> = (0..cases.len()).collect();
         while let Some(&first) = left.first() {
@@ -84,7 +85,7 @@ impl Native {
     }
 }
 
-/// Calls `run` with a test whether to go on; if it was stopped, the error is the interrupt or the time limit.
+/// Calls `run` with a test of whether to go on. If it was stopped, the error is the interrupt or the time limit.
 fn while_wanted<T>(
     context: &RunContext,
     run: impl FnOnce(&dyn Fn() -> bool) -> Result<T, SeriesError>,
@@ -95,7 +96,7 @@ fn while_wanted<T>(
     run(&wanted).map_err(|error| cause(error, context, late()))
 }
 
-/// The observation of `run`, unless it was stopped.
+/// Observes `run`; fails if it was stopped or its observation is not usable.
 pub(crate) fn observe(run: &EventRun, context: &RunContext) -> Result<Observation, Box<Failure>> {
     let observation = while_wanted(context, |wanted| {
         let observation = run.observe(wanted);
@@ -150,7 +151,7 @@ pub(crate) fn repeat(
     }
 }
 
-/// The cause of an unusable series; `late` is the time limit, if that was exceeded.
+/// Returns the cause of an unusable series; `late` is the time limit if that was exceeded.
 fn cause(error: SeriesError, context: &RunContext, late: Option<Duration>) -> FailureKind {
     match late {
         _ if context.interrupt.requested() => FailureKind::Interrupted,
@@ -211,7 +212,7 @@ impl InstalledCode for Native {
     }
 }
 
-/// The outcomes of `tasks`, up to the first failure.
+/// Returns the outcomes of `tasks`, or the first failure.
 fn outcomes<Task: ToString, Outcome>(
     tasks: &[Task],
     carry_out: impl Fn(&Task) -> Result<Outcome, FailureKind>,

@@ -8,13 +8,13 @@ use std::collections::BTreeMap;
 use std::io::{Read, Write};
 use std::path::Path;
 
-/// Largest content of an archive that is read, in bytes: fifty times that of the recorded ones.
+/// Size limit for the content of an archive, in bytes: fifty times that of the recorded ones.
 const MAX_CONTENT: u64 = 1 << 26;
 
 /// The files of an archive by their names.
 pub(super) type Members = BTreeMap<String, Vec<u8>>;
 
-/// The bytes of an archive of `members`. Equal members give equal bytes.
+/// Packs `members` into an archive. Equal members give equal bytes.
 pub(super) fn pack(members: &Members) -> Vec<u8> {
     write(members).expect("an archive is written to memory")
 }
@@ -39,7 +39,7 @@ fn append(
     archive.append_data(&mut header, name, content)
 }
 
-/// The files in the archive `packed`, which was read from `path`.
+/// Unpacks the files of the archive `packed`, which was read from `path`.
 ///
 /// # Errors
 /// If anything in it is damaged; the error names the archive and, where it is known, the file in it.

@@ -1,6 +1,6 @@
 //! The recorded runs inside the program: those of the checkout it was built from.
 
-/// The files of every code by their names.
+/// Embeds the files of every code under their names.
 macro_rules! files_of {
     ($($code:literal),*) => {
         &[$(
@@ -27,7 +27,7 @@ const FILES: &[(&str, &[u8])] = files_of![
     "yade-wall"
 ];
 
-/// The embedded file `name`.
+/// Returns the embedded file `name`.
 pub(super) fn file(name: &str) -> Option<&'static [u8]> {
     let mut files = FILES.iter();
     let found = files.find(|(own, _)| *own == name);

@@ -19,16 +19,16 @@ use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 use thiserror::Error;
 
-/// The place of the embedded files in messages.
+/// Stands in messages for the directory of the embedded files.
 const IN_THE_PROGRAM: &str = "tristack:recorded";
-/// Largest file of recorded runs that is read, in bytes.
+/// Size limit for files of recorded runs, in bytes.
 const MAX_FILE: u64 = 1 << 24;
 
-/// The recorded runs of all codes, those in the program or in a directory. The files of a code are read when
-/// something of it is asked for, and once.
+/// The recorded runs of all codes, in the program or in a directory. The files of a code are read once, when
+/// something of it is first asked for.
 #[derive(Debug, Clone, Default)]
 pub struct Recorded {
-    /// Their directory; they are in the program if absent.
+    /// Their directory; absent if they are in the program.
     directory: Option<PathBuf>,
     codes: Arc<Mutex<BTreeMap<Code, Arc<Files>>>>,
 }
@@ -87,10 +87,10 @@ impl Recorded {
         }
     }
 
-    /// The recorded run of `case` by `code`, if its series is kept.
+    /// Returns the recorded run of `case` by `code`, if its series is kept.
     ///
     /// # Errors
-    /// If it is not, or is damaged, or was made with another deck.
+    /// If there is none, its series is not kept, it is damaged, or it was made with another deck.
     pub fn run(&self, code: &Code, case: &Case) -> Result<Run, RecordedError> {
         let files = self.files(code);
         let row = self.row(&files, code, case)?;
@@ -106,7 +106,7 @@ impl Recorded {
         })
     }
 
-    /// The summary of the recorded run of `case` by `code`.
+    /// Returns the summary of the recorded run of `case` by `code`.
     ///
     /// # Errors
     /// If there is none, or the table is damaged, or the run was made with another deck.
@@ -115,7 +115,7 @@ impl Recorded {
         Ok(self.row(&files, code, case)?.summary.clone())
     }
 
-    /// The recorded probe of `code`.
+    /// Returns the recorded probe of `code`.
     ///
     /// # Errors
     /// If there is none, or it is damaged, or a micro-test was made with another deck, other parameters or
@@ -139,7 +139,7 @@ impl Recorded {
         Ok(record)
     }
 
-    /// The recorded runs of `code`, made with any deck.
+    /// Reads the recorded runs of `code`, whatever the deck they were made with.
     pub fn recording(&self, code: &Code) -> Result<Recording, FileError> {
         let directory = self.directory();
         let table = self.read(&table_path(directory, code))?;
@@ -151,7 +151,7 @@ impl Recorded {
         Recording::from_files(&table, &archive, directory, code)
     }
 
-    /// The error that nothing of the kind `what` is recorded of `code`.
+    /// Returns the error that nothing of the kind `what` is recorded for `code`.
     pub(crate) fn absent(&self, code: &Code, what: &'static str) -> RecordedError {
         let path = archive_path(self.directory(), code);
         RecordedError::Absent {
@@ -217,7 +217,7 @@ impl Recorded {
         members.as_ref().map_err(|error| Arc::clone(error).into())
     }
 
-    /// The content of the file at `path`, in the program or in the directory; `None` if there is none.
+    /// Reads the file at `path`, in the program or in the directory; returns `None` if there is none.
     fn read(&self, path: &Path) -> Result<Option<Cow<'static, [u8]>>, FileError> {
         if self.directory.is_none() {
             let name = path.file_name().unwrap_or_default().to_string_lossy();

@@ -15,9 +15,9 @@ use std::collections::HashSet;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
-/// The file in the archive with the micro-tests.
+/// The file in the archive that holds the micro-tests.
 pub(super) const PROBE: &str = "probe.json";
-/// The column with the name of a series in the archive.
+/// The column that names a series in the archive.
 const SERIES: &str = "series";
 /// The first columns of the table.
 const FIRST_COLUMNS: [&str; 6] = [
@@ -47,14 +47,14 @@ pub struct RecordedRun {
 }
 
 impl RecordedRun {
-    /// `run` with its series.
+    /// Keeps `run` with its series.
     pub fn with_series(run: Run) -> Self {
         let series = Some(run.series.clone());
         let summary = RunSummary::new(run);
         Self { summary, series }
     }
 
-    /// A run of which only the summary is kept.
+    /// Keeps only the summary of a run.
     pub fn without_series(summary: RunSummary) -> Self {
         let series = None;
         Self { summary, series }
@@ -71,7 +71,7 @@ pub struct Recording {
 }
 
 impl Recording {
-    /// Adds `run` in place of an older one of the same case.
+    /// Adds `run`, replacing an older one of the same case.
     pub fn put(&mut self, run: RecordedRun) {
         let mut known = self.runs.iter_mut();
         match known.find(|known| known.summary.case == run.summary.case) {
@@ -80,7 +80,7 @@ impl Recording {
         }
     }
 
-    /// Refuses a `directory` in which something else has the place of the table or the archive of `code`.
+    /// Refuses a `directory` in which anything but a recording has the name of the table or the archive of `code`.
     ///
     /// # Errors
     /// If there is a file of one of these names that is no recording, or anything but a file.
@@ -90,7 +90,7 @@ impl Recording {
         check_own(&archive_path(directory, code), is_archive)
     }
 
-    /// Writes the table and the archive of `code` in `directory`, in place of older ones and of nothing else.
+    /// Writes the table and the archive of `code` in `directory`, replacing older ones and nothing else.
     pub fn save(&self, directory: &Path, code: &Code) -> Result<(), FileError> {
         Self::check_place(directory, code)?;
         let (table, archive) = self.to_files(code);
@@ -98,7 +98,7 @@ impl Recording {
         write_atomically(&table_path(directory, code), table.as_bytes())
     }
 
-    /// Table and archive.
+    /// Returns the content of the table and of the archive.
     pub fn to_files(&self, code: &Code) -> (String, Vec<u8>) {
         let mut runs: Vec<&RecordedRun> = self.runs.iter().collect();
         runs.sort_by(|left, right| compare(&left.summary.case, &right.summary.case));
@@ -121,7 +121,7 @@ impl Recording {
         (text, pack(&members))
     }
 
-    /// The content of the table and the archive of `code`, read from `directory`.
+    /// Reads the content of the table and the archive of `code`, which come from `directory`.
     pub fn from_files(
         table: &str,
         archive: &[u8],
@@ -163,7 +163,7 @@ fn check_own(path: &Path, is_own: impl FnOnce(&[u8]) -> bool) -> Result<(), File
     }
 }
 
-/// The order of the table: by stack, then by protocol.
+/// Compares cases in the order of the table: by stack, then by protocol.
 fn compare(left: &Case, right: &Case) -> Ordering {
     let numbers = |case: &Case| {
         let (stack, protocol) = (&case.stack, &case.protocol);
@@ -175,7 +175,7 @@ fn compare(left: &Case, right: &Case) -> Ordering {
     ordered.unwrap_or_else(|| left.content_hash().cmp(&right.content_hash()))
 }
 
-/// Name of the series of `case`, readable and not yet among `members`.
+/// Chooses a name for the series of `case`, readable and not yet among `members`.
 fn series_name(case: &Case, members: &Members) -> String {
     let (stack, protocol) = (&case.stack, &case.protocol);
     let name = format!(
@@ -189,20 +189,20 @@ fn series_name(case: &Case, members: &Members) -> String {
     free.unwrap_or(name)
 }
 
-/// The table of `code` in `directory`.
+/// Returns the path of the table of `code` in `directory`.
 pub(super) fn table_path(directory: &Path, code: &Code) -> PathBuf {
     directory.join(format!("{code}.csv"))
 }
 
-/// The archive of `code` in `directory`.
+/// Returns the path of the archive of `code` in `directory`.
 pub(super) fn archive_path(directory: &Path, code: &Code) -> PathBuf {
     directory.join(format!("{code}.tar.gz"))
 }
 
-/// The runs of `code` in the `text` of the table at `path`.
+/// Reads the runs of `code` from the `text` of the table at `path`.
 ///
 /// # Errors
-/// If it is damaged, or holds an impossible case, one twice, or a run of another code.
+/// If the table is damaged, or holds an invalid case, the same case twice, or a run of another code.
 pub(super) fn parse_table(text: &str, path: &Path, code: &Code) -> Result<Vec<Row>, FileError> {
     let rows = from_csv(text).and_then(|rows| {
         let mut known = HashSet::new();
@@ -235,7 +235,7 @@ fn parse_row(mut row: Value, code: &Code) -> Result<Row, String> {
     Ok(Row { summary, series })
 }
 
-/// The series `name` of `case` among `members` of the archive at `path`.
+/// Reads the series `name` of `case`, one of the `members` of the archive at `path`.
 pub(super) fn series_in(
     members: &Members,
     name: &str,
@@ -250,7 +250,7 @@ pub(super) fn series_in(
     parse_series(&path, content, case)
 }
 
-/// The micro-tests among `members` of the archive at `path`.
+/// Reads the micro-tests among the `members` of the archive at `path`.
 pub(super) fn probe_in(members: &Members, path: &Path) -> Result<Option<ProbeRecord>, FileError> {
     let probe = members.get(PROBE);
     let probe = probe.map(|text| ProbeRecord::parse(text, &path.join(PROBE)));

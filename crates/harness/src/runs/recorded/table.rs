@@ -1,8 +1,8 @@
-//! A table of JSON objects that share most of their values, as CSV: values that all rows share stand once, in
-//! comments above the header.
+//! A CSV table of JSON objects that share most of their values: values that all rows share stand once, in comments
+//! above the header.
 //!
-//! Nested keys are joined by dots. A cell is JSON, or plain text where that cannot be taken for JSON; an empty
-//! cell is an absent value. The first line holds the digest of all others.
+//! Nested keys are joined by dots. A cell is JSON, or plain text that cannot be taken for JSON; an empty cell is an
+//! absent value. The first line holds the digest of all others.
 
 use crate::model::sha256_hex;
 use serde_json::{Map, Value};
@@ -11,14 +11,14 @@ use std::collections::{BTreeMap, BTreeSet};
 const DIGEST: &str = "# sha256 of all below: ";
 const SHARED: &str = "# = ";
 
-/// Longest comments above the header, in bytes, and deepest nesting of a key.
+/// Most bytes of comments above the header, and deepest nesting of a key.
 const MAX_SHARED: usize = 1 << 16;
 const MAX_DEPTH: usize = 8;
 
 /// A row by its columns.
 type Row = BTreeMap<String, Value>;
 
-/// The table of `objects`, under `title`. Columns that begin with one of `first` come first, in that order.
+/// Writes the table of `objects` under `title`. Columns that begin with one of `first` come first, in that order.
 pub(super) fn to_csv(objects: &[Value], title: &str, first: &[&str]) -> String {
     let rows: Vec<Row> = objects.iter().map(flattened).collect();
     let keys: BTreeSet<&str> = rows
@@ -65,7 +65,7 @@ fn body(rows: &[Row], columns: &[&str]) -> String {
     String::from_utf8(bytes).expect("cells are text")
 }
 
-/// The objects of the table in `text`.
+/// Reads the objects of the table in `text`.
 ///
 /// # Errors
 /// The first error, with its line.
@@ -96,7 +96,7 @@ pub(super) fn from_csv(text: &str) -> Result<Vec<Value>, String> {
     rows.collect()
 }
 
-/// The values in the comments at the beginning of `text`.
+/// Reads the shared values from the comments at the beginning of `text`.
 fn shared(text: &str) -> Result<Vec<(&str, Value)>, String> {
     let comments = text.lines().take_while(|line| line.starts_with('#'));
     let length: usize = comments.clone().map(str::len).sum();
@@ -109,7 +109,7 @@ fn shared(text: &str) -> Result<Vec<(&str, Value)>, String> {
     Ok(pairs.map(|(key, text)| (key, value(text))).collect())
 }
 
-/// The text of `value` in a cell.
+/// Returns the text of `value` in a cell.
 fn cell(value: &Value) -> String {
     match value {
         Value::String(text) if is_plain(text) => text.clone(),
@@ -130,7 +130,7 @@ fn value(text: &str) -> Value {
     serde_json::from_str(text).unwrap_or_else(|_| Value::from(text))
 }
 
-/// The values of an object by their joined keys, without nulls.
+/// Returns the values of an object by their joined keys, without nulls.
 fn flattened(object: &Value) -> Row {
     let mut row = Row::new();
     flatten(object, "", &mut row);
@@ -150,7 +150,7 @@ fn flatten(value: &Value, key: &str, row: &mut Row) {
     }
 }
 
-/// The object with the given values by their joined keys.
+/// Builds the object that has the given values by their joined keys.
 fn nested<'a>(values: impl Iterator<Item = (&'a str, Value)>) -> Result<Value, String> {
     let mut root = Map::new();
     for (key, value) in values {

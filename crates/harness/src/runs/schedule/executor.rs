@@ -1,5 +1,5 @@
-//! Carries out requests: from the store, from recordings, by codes on all cores, or by waiting for another program
-//! that is carrying out the same task.
+//! Carries out requests: takes results from the store or from recordings, runs codes on all cores, or waits for
+//! another program that is carrying out the same task.
 
 use super::requests::RunRequest;
 use super::store_writer::{Claim, Finished, StoreWriter, keep, with_store_writer};
@@ -12,8 +12,8 @@ use std::sync::atomic::AtomicUsize;
 use std::sync::{Arc, Mutex, PoisonError};
 use tempfile::TempDir;
 
-/// A call of a code that carries out many tasks takes at least so many seconds by estimate, if there is enough work for
-/// more calls than cores: starting it takes a few, and other programs at the store take on the other calls.
+/// Least estimated duration, in seconds, of a call that carries out many tasks, if there is enough work for more
+/// calls than cores: starting the code takes a few seconds, and other programs at the store take on the other calls.
 const SECONDS_OF_A_CALL: f64 = 60.0;
 
 type Outcome<R> = <<R as Reading>::Task as ScheduledTask>::Outcome;
@@ -33,7 +33,7 @@ pub(super) struct Executor<'a, R: Reading> {
     slots: Vec<Slot<R>>,
     /// Requests that other programs are working on.
     elsewhere: Mutex<Vec<(usize, LockOwner)>>,
-    /// Number of requests for which the time left was not enough.
+    /// Number of requests that would not have ended in the time left.
     pub(super) postponed: AtomicUsize,
 }
 
@@ -53,7 +53,7 @@ impl<'a, R: Reading> Executor<'a, R> {
         }
     }
 
-    /// The result of every request.
+    /// Carries out every request and returns its result.
     pub(super) fn results(self, codes: &'a [SelectedCode]) -> Vec<Option<Result<R, RunError>>> {
         let jobs = self.jobs(codes);
         self.work_off(&jobs);
@@ -71,7 +71,7 @@ impl<'a, R: Reading> Executor<'a, R> {
         self.requests[request].task
     }
 
-    /// The code that carries out `request`, which is one of `codes`.
+    /// Returns the code that carries out `request`, one of `codes`.
     pub(super) fn code_of(
         &self,
         request: usize,
@@ -110,7 +110,7 @@ impl<'a, R: Reading> Executor<'a, R> {
         self.pack(&open, codes)
     }
 
-    /// Jobs for the requests in `open`, the longest first.
+    /// Packs the requests in `open` into jobs, the longest first.
     pub(super) fn pack(&self, open: &[usize], codes: &'a [SelectedCode]) -> Vec<Job<'a>> {
         let mut jobs = Vec::new();
         for selected in codes {
@@ -131,14 +131,14 @@ impl<'a, R: Reading> Executor<'a, R> {
         jobs
     }
 
-    /// The number of calls for the requests in `own`, of one of so many `codes`.
+    /// Returns the number of calls for the requests in `own`, all of one code among `codes` codes.
     fn few_calls(&self, own: &[usize], codes: usize) -> usize {
         let seconds = own.iter().map(|&request| self.total_seconds(request));
         let enough = (seconds.sum::<f64>() / SECONDS_OF_A_CALL) as usize;
         enough.max(self.settings.threads.div_ceil(codes))
     }
 
-    /// Deals `requests` out to at most so many calls, the longest first, so that all calls take about as long.
+    /// Deals out `requests` to at most `calls` calls, the longest first, so that all calls take about as long.
     fn deal(&self, mut requests: Vec<usize>, calls: usize) -> Vec<Vec<usize>> {
         requests.sort_by_key(|&request| std::cmp::Reverse(self.task(request).steps()));
         let calls = calls.min(requests.len());
@@ -152,7 +152,7 @@ impl<'a, R: Reading> Executor<'a, R> {
         own.map(|(index, _)| index).collect()
     }
 
-    /// Estimated duration of a request in seconds.
+    /// Estimates the duration of a request in seconds.
     pub(super) fn total_seconds(&self, request: usize) -> f64 {
         let request = &self.requests[request];
         request.seconds(request.task.steps())
@@ -283,7 +283,7 @@ impl<'a, R: Reading> Executor<'a, R> {
         tempfile::Builder::new().prefix(&prefix).tempdir_in(root)
     }
 
-    /// Claims the requests of `job`, and returns those that are still to be made, by this program.
+    /// Claims the requests of `job`, and returns those that this program still has to make.
     fn take_on(&self, job: &Job) -> (Arc<Claim<'a>>, Vec<usize>) {
         let addresses = job
             .requests

@@ -32,7 +32,7 @@ pub struct Settings<'a> {
     pub recorded: Recorded,
     /// Whether to ignore stored runs, and checkpoints of unfinished ones.
     pub fresh: bool,
-    /// Runs at the same time.
+    /// Number of runs at the same time.
     pub threads: usize,
     /// Longest time without a finished case; the codes' own estimate if absent.
     pub time_limit: Option<Duration>,
@@ -49,7 +49,7 @@ pub struct SelectedCode {
 }
 
 impl SelectedCode {
-    /// The code `name` as it is installed here.
+    /// Finds the code `name` as it is installed here.
     pub fn find(name: Code) -> Self {
         Self {
             code: name.find(),
@@ -96,14 +96,14 @@ impl From<RecordedError> for RunError {
 
 /// Receives progress.
 pub trait Progress: Sync {
-    /// What comes now is the phase of this name, such as "probing 6 codes"; a phase of another name has ended.
+    /// The phase of this name begins, such as "probing 6 codes"; a phase of another name has ended.
     fn begins(&self, _phase: &str) {}
-    /// `total` results of the kind `name` are needed, `reused` of which exist; the others will take about `seconds`
-    /// of all cores together.
+    /// `total` results of the kind `name` are needed, of which `reused` exist. The others will take about `seconds`,
+    /// summed over all cores.
     fn planned(&self, name: &str, total: usize, reused: usize, seconds: f64);
-    /// Work of so many of these seconds is done.
+    /// `seconds` of the planned work are done.
     fn advanced(&self, seconds: f64);
-    /// `task` has ended, after so many seconds if they were measured.
+    /// `task` has ended; a success comes with its duration in seconds if that was measured.
     fn finished(&self, code: &Code, task: &dyn Display, result: Result<Option<f64>, &Failure>);
     /// A problem that does not affect the results.
     fn warn(&self, message: &str);
@@ -130,10 +130,10 @@ pub trait Reading: Clone + Send {
     /// The program that carried the task out.
     fn identity(&self) -> &Identity;
 
-    /// Reads the result of `task` with `code` in `store`, if there is one.
+    /// Reads the result of `task` with `code` from `store`, if there is one.
     ///
     /// # Errors
-    /// If there is one, but damaged.
+    /// If there is one but it is damaged.
     fn stored(
         task: &Self::Task,
         code: &dyn InstalledCode,

@@ -6,18 +6,18 @@ use crate::code::Code;
 use crate::runs::Progress;
 use std::fmt::Display;
 
-/// The tasks that workloads need of one code.
+/// The tasks of one code that workloads need.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct CodeOutlook {
     /// The code.
     pub code: Code,
-    /// Different tasks.
+    /// Number of different tasks.
     pub tasks: usize,
-    /// Those with a result in the store; of a code that is not installed, those with a recorded one.
+    /// Number of those with a result in the store; for a code that is not installed, with a recorded one.
     pub there: usize,
-    /// Those that are to be carried out.
+    /// Number of those that are to be carried out.
     pub open: usize,
-    /// Their steps.
+    /// Steps of those that are to be carried out.
     pub steps: u64,
 }
 
@@ -33,13 +33,13 @@ pub(crate) struct PlannedCall {
 /// What the schedule would do.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Outlook {
-    /// Of each code, in order.
+    /// The outlook of each code, in order.
     pub codes: Vec<CodeOutlook>,
     /// The calls, in the order in which they would begin.
     pub(crate) calls: Vec<PlannedCall>,
 }
 
-/// What carrying out `workloads` would do. A result in the store counts as usable without being read.
+/// Returns what carrying out `workloads` would do. A result in the store counts as usable without being read.
 pub(crate) fn outlook<R: Reading>(
     workloads: &[Workload<R::Task>],
     codes: &[SelectedCode],
@@ -96,7 +96,7 @@ pub(crate) fn outlook<R: Reading>(
     }
 }
 
-/// Nothing happens, so that there is nothing to report.
+/// Reports nothing, because nothing happens.
 struct Silent;
 
 impl Progress for Silent {
@@ -107,8 +107,8 @@ impl Progress for Silent {
 }
 
 impl Outlook {
-    /// Seconds until the last call ends, with so many calls at the same time, each of which begins when another one has
-    /// ended. `seconds` is the duration of one.
+    /// Returns the seconds until the last call ends, if `at_once` calls run at the same time and another begins
+    /// whenever one ends. `seconds` gives the duration of a call.
     pub(crate) fn seconds(&self, at_once: usize, seconds: impl Fn(&PlannedCall) -> f64) -> f64 {
         let mut free = vec![0.0_f64; at_once.max(1)];
         for call in &self.calls {

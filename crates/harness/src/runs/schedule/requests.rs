@@ -34,7 +34,7 @@ impl<'a, T: ScheduledTask> RunRequest<'a, T> {
     }
 }
 
-/// The distinct tasks of `workloads`, and the position of each task of each workload among them.
+/// Returns the distinct tasks of `workloads`, and for each workload the positions of its tasks among them.
 pub(super) fn requests<T: ScheduledTask>(
     workloads: &[Workload<T>],
 ) -> (Vec<RunRequest<'_, T>>, Vec<Vec<usize>>) {
@@ -55,7 +55,7 @@ pub(super) fn requests<T: ScheduledTask>(
     (requests, wanted)
 }
 
-/// The results of each workload; only those that several cases share are cloned.
+/// Hands out the results to each workload; only results that several tasks share are cloned.
 pub(super) fn hand_out<R: Clone>(
     mut results: Vec<Option<R>>,
     wanted: Vec<Vec<usize>>,

@@ -6,12 +6,12 @@ use crate::runs::Store;
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// Threads that write: the disk syncs many files in hardly more time than one.
+/// Number of threads that write: the disk syncs many files in hardly more time than one.
 const WRITERS: usize = 8;
 /// Most results held in memory.
 const CAPACITY: usize = 64;
 
-/// The claim of this program to the runs of a job, released when the last of them is settled.
+/// The claim of this program to the runs of a job. It is released when the last of them is settled.
 pub(super) struct Claim<'a> {
     pub(super) store: &'a Store,
     pub(super) progress: &'a dyn Progress,
@@ -48,7 +48,7 @@ pub(super) fn with_store_writer<'a, T: ScheduledTask>(
     work: impl FnOnce(&StoreWriter<'a, T>) + Send,
 ) {
     let (store_writer, inbox) = sync_channel(CAPACITY);
-    // Owned by the writing threads alone: if they are gone, sending fails instead of blocking.
+    // Only the writing threads own it: if they are gone, sending fails instead of blocking.
     let inbox = Arc::new(Mutex::new(inbox));
     let kept = &kept;
     std::thread::scope(|threads| {

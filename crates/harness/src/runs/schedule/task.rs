@@ -7,7 +7,8 @@ use crate::model::Case;
 use crate::runs::{Kind, Recorded, RecordedError, Store};
 use std::fmt::Display;
 
-/// A task whose result is kept: the run of a case, an event run, or the probe of a code.
+/// A task whose result is kept: the run of a case, an event run, a run of the authors' program, an impact, or the
+/// probe of a code.
 pub trait ScheduledTask: Copy + Display + Send + Sync + 'static {
     /// The result as it is kept.
     type Outcome: Send;
@@ -29,10 +30,10 @@ pub trait ScheduledTask: Copy + Display + Send + Sync + 'static {
     /// The address under which the store keeps the result of `code`.
     fn address(&self, code: &dyn InstalledCode) -> String;
 
-    /// The result of `code` in `store`, if there is one.
+    /// Reads the result of `code` from `store`, if there is one.
     ///
     /// # Errors
-    /// If there is one, but damaged.
+    /// If there is one but it is damaged.
     fn stored(
         &self,
         code: &dyn InstalledCode,
@@ -50,13 +51,13 @@ pub trait ScheduledTask: Copy + Display + Send + Sync + 'static {
         store: &Store,
     ) -> Result<(), FileError>;
 
-    /// The recorded result of `code`.
+    /// Reads the recorded result of `code`.
     ///
     /// # Errors
     /// If there is none, or it cannot stand in.
     fn recorded(&self, code: &Code, recorded: &Recorded) -> Result<Self::Outcome, RecordedError>;
 
-    /// Carries out `tasks` with `code`; a failure does not keep the others from being carried out.
+    /// Carries out `tasks` with `code`; a failure does not stop the others.
     fn carry_out(
         tasks: &[Self],
         code: &dyn InstalledCode,

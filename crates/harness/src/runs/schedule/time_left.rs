@@ -1,4 +1,4 @@
-//! Runs for which the time that is left is enough.
+//! Selects the runs for which there is enough time left.
 
 use super::executor::Executor;
 use super::{Reading, ScheduledTask};
@@ -8,7 +8,8 @@ use std::sync::atomic::Ordering;
 use std::time::Duration;
 
 impl<R: Reading> Executor<'_, R> {
-    /// Those of `requests` that will end in time in one call, one after another; the others are reported.
+    /// Returns those of `requests` that end in time if one call carries them out one after another; reports the
+    /// others.
     pub(super) fn in_time(&self, code: &dyn InstalledCode, mut requests: Vec<usize>) -> Vec<usize> {
         let interrupt = self.settings.interrupt;
         let Some((left, whole)) = interrupt.time_left() else {
@@ -18,7 +19,8 @@ impl<R: Reading> Executor<'_, R> {
             interrupt.begin();
             return requests;
         }
-        // What this start may use for one run, or another start: the first that begins anything has all that is left.
+        // The most time that a start of this command has for one run. If nothing has begun, no other start will have
+        // more left.
         let usable = match interrupt.has_begun() {
             true => whole,
             false => left.min(whole),
@@ -41,8 +43,9 @@ impl<R: Reading> Executor<'_, R> {
         requests
     }
 
-    /// Reports that `request` is not begun, which takes as long as the `estimate`, its start included: it fails if no
-    /// start of the same command has the time, of which each can use at most `usable`.
+    /// Reports that `request`, which takes as long as `estimate` with its start, is not begun. It fails if no start
+    /// of the same command has that time, of which each can use at most `usable`; otherwise it is left for another
+    /// start.
     fn leave(
         &self,
         code: &dyn InstalledCode,
@@ -64,7 +67,7 @@ impl<R: Reading> Executor<'_, R> {
         self.report(code.name(), request, Err(failure));
     }
 
-    /// Ends the program where requests were left for its next start.
+    /// Requests a stop, with a warning, if requests were left for the next start of the program.
     pub(super) fn end_if_postponed(&self) {
         let count = self.postponed.load(Ordering::Relaxed);
         if count > 0 {
@@ -77,12 +80,12 @@ impl<R: Reading> Executor<'_, R> {
     }
 }
 
-/// So many seconds; the longest duration for more than that, or for what is no number.
+/// Converts to a duration: the longest one if `seconds` is too large, negative or no number.
 fn seconds(seconds: f64) -> Duration {
     Duration::try_from_secs_f64(seconds).unwrap_or(Duration::MAX)
 }
 
-/// `duration` rounded up to whole seconds, so that it never looks like a shorter one that is rounded down.
+/// Rounds `duration` up to whole seconds, so that it never looks equal to a shorter one that is rounded down.
 fn seconds_up(duration: Duration) -> Duration {
     let part = u64::from(duration.subsec_nanos() > 0);
     Duration::from_secs(duration.as_secs().saturating_add(part))

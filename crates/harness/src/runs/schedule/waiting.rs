@@ -6,13 +6,13 @@ use crate::runs::LockOwner;
 use std::collections::BTreeMap;
 use std::time::{Duration, Instant};
 
-/// First interval at which runs of other programs are looked for; it doubles as long as none of them ends.
+/// First interval between two looks at the runs of other programs; it doubles as long as none of them ends.
 const FIRST_INTERVAL: Duration = Duration::from_millis(200);
-/// Longest interval, so that a hundred programs that wait do not keep others from the lock of the store.
+/// Longest interval: a hundred waiting programs must not keep others from the lock of the store.
 const LONGEST_INTERVAL: Duration = Duration::from_secs(5);
 
 impl<'a, R: Reading> Executor<'a, R> {
-    /// Takes the results that other programs finish, and makes those that they abandon.
+    /// Takes over the results that other programs finish, and makes those that they abandon.
     pub(super) fn wait_for_others(&self, codes: &'a [SelectedCode]) {
         let mut announced = BTreeMap::new();
         let mut interval = FIRST_INTERVAL;
@@ -37,8 +37,8 @@ impl<'a, R: Reading> Executor<'a, R> {
         }
     }
 
-    /// Those of the requests in `waiting` that no other program is making any more, asked for all at once. The slots of
-    /// finished ones are filled.
+    /// Returns the requests in `waiting` that no other program is making any more; asks for all of them at once.
+    /// Fills the slots of finished ones.
     fn released(&self, waiting: Vec<(usize, LockOwner)>, codes: &'a [SelectedCode]) -> Vec<usize> {
         let known = waiting.into_iter().filter_map(|(request, _)| {
             let code = self.code_of(request, codes)?;
@@ -47,7 +47,7 @@ impl<'a, R: Reading> Executor<'a, R> {
         let known: Vec<_> = known.collect();
         let addresses: Vec<String> = known.iter().map(|(.., address)| address.clone()).collect();
         let Ok(owners) = self.settings.store.claim(&addresses) else {
-            // The error comes again, and is reported, when the jobs are claimed.
+            // The error occurs again, and is reported, when the jobs are claimed.
             return known.into_iter().map(|(request, ..)| request).collect();
         };
         let mut released = Vec::new();

@@ -28,12 +28,12 @@ const OTHERS_WRITE: u32 = 0o022;
 pub enum Sharing {
     /// The user who runs this program and root.
     Private,
-    /// Whoever the permissions of the directory let; everything there is believed.
+    /// Whoever has permission to write to the directory; everything there is believed.
     Shared,
 }
 
-/// A store and the directories in it. None may be a symbolic link; in a private store none may belong to another user,
-/// or be writable for one. What is in such a directory was put there by its owner or by root.
+/// A store and the directories in it. None may be a symbolic link; in a private store none may belong to another user
+/// or be writable for others. So whatever is in such a directory was put there by its owner or by root.
 #[derive(Debug)]
 pub(super) struct Directories {
     root: PathBuf,
@@ -41,7 +41,7 @@ pub(super) struct Directories {
 }
 
 impl Directories {
-    /// The store at `root`, which is created if there is nothing.
+    /// Opens the store at `root`; creates it if nothing is there.
     pub(super) fn open(root: &Path, sharing: Sharing) -> Result<Self, StoreError> {
         let directories = Self {
             root: root.to_owned(),
@@ -69,7 +69,7 @@ impl Directories {
             builder.mode(0o700);
         }
         match builder.create(&self.root) {
-            // By another program, just now.
+            // Another program has just created it.
             Err(error) if error.kind() == ErrorKind::AlreadyExists => Ok(()),
             Err(error) => Err(writing()(error)),
             Ok(()) => sync_directory(&parent),
@@ -89,7 +89,7 @@ impl Directories {
         }
     }
 
-    /// The path of `name` in the store, where a file or a directory may be.
+    /// Returns the path of `name` in the store, where a file or a directory may be.
     ///
     /// # Errors
     /// If one of the directories on the way there is a link or not the store's own.
@@ -104,7 +104,7 @@ impl Directories {
         Ok(path)
     }
 
-    /// Refuses what is at `path`, if anything is, unless it is a directory of the store.
+    /// Refuses what is at `path`, unless it is a directory of the store or there is nothing.
     pub(super) fn check(&self, path: &Path) -> Result<(), FileError> {
         match fs::symlink_metadata(path) {
             Err(error) if error.kind() == ErrorKind::NotFound => Ok(()),
@@ -113,7 +113,7 @@ impl Directories {
         }
     }
 
-    /// The directory `name` in the store, which is created if there is none.
+    /// Returns the directory `name` in the store and creates it if there is none.
     pub(super) fn create(&self, name: impl AsRef<Path>) -> Result<PathBuf, FileError> {
         let path = self.place(&name)?;
         self.check(&path)?;
@@ -130,13 +130,15 @@ impl Directories {
         Ok(path)
     }
 
-    /// The first file, in the order of names, in a directory that may not have been a store yet.
+    /// Returns the first name in the directory, in alphabetical order, apart from drafts. The directory may not have
+    /// been a store yet.
     pub(super) fn first_file(&self) -> Result<Option<String>, FileError> {
         let reading = || FileError::reading(&self.root);
         let entries = fs::read_dir(&self.root).map_err(reading())?;
         let names = entries.map(|entry| Ok(shown(Path::new(&entry?.file_name()))));
         let names: Result<Vec<String>, std::io::Error> = names.collect();
-        // Of its marker, by a program that opens the store at the same time, or was killed when it did.
+        // Drafts of the marker are left by a program that is opening the store at the same time, or was killed while
+        // it did.
         let files = names.map_err(reading())?.into_iter();
         Ok(files.filter(|name| !is_draft(name)).min())
     }

@@ -8,12 +8,12 @@ use std::io::ErrorKind;
 const FILE: &str = "format";
 /// Version 2 has digests and sessions. Version 1 had neither, and no file that said so.
 const CURRENT: &str = "tristack store, format 2\n";
-/// Longest marker of another version that is read, in bytes.
+/// Size limit for the marker of any version, in bytes.
 const LONGEST: u64 = 80;
 
-/// Refuses a directory that is no store, or one with another format; a new or empty one becomes a store.
+/// Refuses a directory that is no store, or one with another format; makes a new or empty one a store.
 pub(super) fn check(directories: &Directories) -> Result<(), StoreError> {
-    // Looked for first, because the marker is written before anything else.
+    // Looked for before the marker is read, because the marker is written before anything else.
     let first = directories.first_file();
     let path = directories.root().join(FILE);
     let found = match read_bounded(&path, LONGEST, Links::Refused) {

@@ -1,5 +1,5 @@
-//! The entries of a store by place and name alone: no file is opened and no link is followed. What is not named as this
-//! program names it is no entry.
+//! The entries of a store by place and name alone: no file is opened and no link is followed. Only what is named as
+//! this program names it is an entry.
 
 use super::StoreError;
 use super::directories::{Directories, Sharing};
@@ -23,7 +23,7 @@ pub enum EntryKind {
     Run,
     /// The micro-tests of a code.
     Probe,
-    /// The observation of an event run.
+    /// The observation of an event run or of a run of the authors' program.
     Observation,
     /// The reading of an impact.
     Impact,
@@ -75,11 +75,11 @@ pub struct StoredFile {
 pub struct StoredEntry {
     /// Its kind.
     pub kind: EntryKind,
-    /// Its address; of what is in quarantine, address and number; of a failed run, its directory.
+    /// Its address; for a result in quarantine, its address and a number; for a failed run, its directory.
     pub name: String,
     /// Its place.
     pub path: PathBuf,
-    /// The same in the store.
+    /// Its path in the store.
     pub(super) place: PathBuf,
     /// Its files, by their names.
     pub files: Vec<StoredFile>,
@@ -88,16 +88,16 @@ pub struct StoredEntry {
 }
 
 impl StoredEntry {
-    /// The lengths of its files together.
+    /// Returns the total length of its files.
     pub fn bytes(&self) -> u64 {
         self.files.iter().map(|file| file.bytes).sum()
     }
 }
 
-/// The entries of the store at `root`, by kind and name; `None` if there is no store. Nothing is created.
+/// Lists the entries of the store at `root` by kind and name; returns `None` if there is no store. Creates nothing.
 ///
 /// # Errors
-/// If it is no store, or not to be trusted, or cannot be read.
+/// If it is no store, is not to be trusted, or cannot be read.
 pub(crate) fn entries(
     root: &Path,
     sharing: Sharing,
@@ -177,7 +177,7 @@ fn single_files(
     Ok(entries.collect())
 }
 
-/// The entry at `place`, unless it holds a file that `is_own` does not know, or is gone.
+/// Returns the entry at `place`, unless it holds a file that `is_own` does not know, or is gone.
 fn entry(
     kind: EntryKind,
     directories: &Directories,
@@ -189,7 +189,7 @@ fn entry(
     let mut times = Vec::new();
     let mut open = vec![PathBuf::new()];
     while let Some(name) = open.pop() {
-        // With a final slash a file would be taken for a directory.
+        // A final slash would make the system take a file for a directory.
         let inside = match name == Path::new("") {
             true => path.clone(),
             false => path.join(&name),
@@ -230,7 +230,7 @@ fn file(entry: &Path, name: PathBuf, found: &Metadata) -> StoredFile {
     }
 }
 
-/// The name of an entry, from its place in the store.
+/// Returns the name of an entry, from its place in the store.
 fn entry_name(kind: EntryKind, place: &Path) -> String {
     let mut parts = place.iter().skip(1).map(|part| part.to_string_lossy());
     match kind {
@@ -243,7 +243,7 @@ fn entry_name(kind: EntryKind, place: &Path) -> String {
     }
 }
 
-/// What lies in a directory.
+/// An entry of a directory, with its name if that is text.
 struct Found(DirEntry, Option<String>);
 
 impl Found {
@@ -257,7 +257,7 @@ impl Found {
     }
 }
 
-/// What lies in the directory at `place`, which may be absent.
+/// Lists what lies in the directory at `place`, which may be absent.
 fn below(directories: &Directories, place: &Path) -> Result<Vec<Found>, FileError> {
     let path = directories.place(place)?;
     directories.check(&path)?;
@@ -278,7 +278,7 @@ fn is_hexadecimal(text: &str, digits: usize) -> bool {
     text.len() == digits && text.as_bytes().iter().all(is_digit)
 }
 
-/// Whether the store gives this name to what it puts into quarantine: an address and a number.
+/// Whether the store gives this name to something in quarantine: an address and a number.
 fn is_quarantined(name: &str) -> bool {
     let parts = name.split_once('-');
     parts.is_some_and(|(address, number)| {

@@ -10,9 +10,9 @@ use std::io::{Seek, SeekFrom, Write};
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-/// Longest wait for the lock: an owner that keeps it longer is suspended.
+/// Longest wait for the lock; an owner that keeps it longer is suspended.
 const PATIENCE: Duration = Duration::from_secs(20);
-/// Longest name of an owner, which holds a command line, in bytes.
+/// Size limit for the name of an owner, which holds a command line, in bytes.
 const LONGEST_OWNER: u64 = 1 << 24;
 const POLL_INTERVAL: Duration = Duration::from_millis(2);
 
@@ -59,7 +59,7 @@ pub(super) struct Lock {
 }
 
 impl Lock {
-    /// Waits for the lock in the file at `path`, and writes the `owner` there.
+    /// Waits for the lock in the file at `path` and writes `owner` there.
     pub(super) fn acquire(path: &Path, owner: &LockOwner) -> Result<Self, StoreError> {
         Self::acquire_within(PATIENCE, path, owner)
     }
@@ -84,14 +84,14 @@ impl Lock {
                 Err(TryLockError::Error(error)) => return Err(no_lock(path, error)),
             }
         }
-        // Named in the error of programs that wait too long; the lock holds without it.
+        // Programs that wait too long name the owner in their error; the lock holds without it.
         let _ = overwrite(&mut file, owner.to_string().as_bytes(), 0);
         Ok(Self { _file: file })
     }
 }
 
-/// Writes `content` in place of that of `file`, in place because others know the file by its lock. The first `kept` bytes
-/// are the same already, and stay.
+/// Overwrites the content of `file` in place, because other programs know the file by its lock. The first `kept`
+/// bytes are the same already and stay.
 pub(super) fn overwrite(file: &mut File, content: &[u8], kept: usize) -> std::io::Result<()> {
     let rest = content.get(kept..).unwrap_or_default();
     file.set_len(kept as u64)?;
@@ -99,7 +99,7 @@ pub(super) fn overwrite(file: &mut File, content: &[u8], kept: usize) -> std::io
     file.write_all(rest)
 }
 
-/// The failure of a lock in the file at `path`: most often the file system has none.
+/// Returns the error for a lock that failed in the file at `path`: most often the file system has no locks.
 pub(super) fn no_lock(path: &Path, error: std::io::Error) -> StoreError {
     let missing = [
         Errno::ENOLCK,

@@ -4,7 +4,7 @@
 //! others have made. A damaged entry is moved to quarantine, never used and never deleted.
 //!
 //! A directory is adopted as a store only if its marker is there, or if it is new or empty. A store that cannot be
-//! written to is read.
+//! written to is only read.
 
 mod directories;
 mod format;
@@ -120,7 +120,7 @@ pub enum Kind {
     Run,
     /// The probe of a code.
     Probe,
-    /// What was observed in an event run.
+    /// What was observed in an event run or in a run of the authors' program.
     Observation,
     /// What was read off the motion of an impact.
     Impact,
@@ -137,7 +137,7 @@ impl Kind {
         }
     }
 
-    /// The name of the phase in which such results of so many codes are made or read.
+    /// Returns the name of the phase in which such results of so many codes are made or read.
     pub(crate) fn phase(self, codes: usize) -> String {
         let phase = match self {
             Self::Run => "compressions",
@@ -160,9 +160,9 @@ pub struct Store {
 /// What this program may do in a store.
 #[derive(Debug)]
 enum Access {
-    /// Keep results, claim tasks.
+    /// Keep results and claim tasks.
     Full(Session),
-    /// Read alone.
+    /// Read only.
     Reading(Reading),
 }
 
@@ -173,20 +173,20 @@ struct Reading {
     reason: String,
     /// Directory for unfinished work.
     work: PathBuf,
-    /// Whether somebody has been told.
+    /// Whether that has been reported.
     told: AtomicBool,
 }
 
 impl Store {
-    /// The private store at `root`, which is created.
+    /// Opens the private store at `root` and creates it if there is none.
     ///
     /// # Errors
-    /// If it is neither a store nor a new or empty directory, or has another format, or others may write to it.
+    /// If it is neither a store nor a new or empty directory, has another format, or others may write to it.
     pub fn open(root: &Path) -> Result<Self, StoreError> {
         Self::open_as(root, Sharing::Private)
     }
 
-    /// The same for a store that may be shared with other users.
+    /// Opens a store that may be shared with other users, as [`Self::open`] opens a private one.
     pub fn open_as(root: &Path, sharing: Sharing) -> Result<Self, StoreError> {
         let directories = Directories::open(root, sharing)?;
         format::check(&directories)?;
@@ -200,7 +200,7 @@ impl Store {
         })
     }
 
-    /// Whether results are kept; if they are not, `tell` is told why, once.
+    /// Whether results are kept. If they are not, calls `tell` with the reason, once.
     pub(crate) fn is_kept(&self, tell: impl FnOnce(&str)) -> bool {
         let Access::Reading(Reading { reason, told, .. }) = self.access.as_ref() else {
             return true;
@@ -214,8 +214,8 @@ impl Store {
         false
     }
 
-    /// Claims the tasks under `addresses` for this program. Returns, for each, the other program that is carrying it out,
-    /// if there is one.
+    /// Claims the tasks under `addresses` for this program. Returns, for each, the other program that is carrying it
+    /// out, if there is one.
     pub(crate) fn claim(&self, addresses: &[String]) -> Result<Vec<Option<LockOwner>>, StoreError> {
         match self.access.as_ref() {
             Access::Full(session) => session.claim(addresses),
@@ -231,7 +231,7 @@ impl Store {
         }
     }
 
-    /// The finished run of `case` by the code with `identity`, if there is one; an error if it is damaged.
+    /// Returns the finished run of `case` by the code with `identity`, if there is one; fails if it is damaged.
     pub fn get(
         &self,
         identity: &Identity,
@@ -248,7 +248,7 @@ impl Store {
         Ok(run)
     }
 
-    /// The summary of that run; an error if the run is damaged.
+    /// Returns the summary of that run; fails if the run is damaged.
     pub(crate) fn summary(
         &self,
         identity: &Identity,
@@ -283,14 +283,14 @@ impl Store {
         let _ = std::fs::remove_file(self.checkpoint_directory().join(format!("{address}.json")));
     }
 
-    /// Puts the damaged result under `address` into quarantine, and returns its place there. It may have been moved
-    /// already.
+    /// Moves the damaged result under `address` into quarantine and returns its place there. Another program may have
+    /// moved it already.
     pub(crate) fn put_aside(&self, kind: Kind, address: &str) -> Result<PathBuf, FileError> {
         let directory = self.directories.create(QUARANTINE)?;
         let mut places = (1..).map(|count: u32| directory.join(format!("{address}-{count}")));
         let free = places.find(|place| std::fs::symlink_metadata(place).is_err());
         let aside = free.expect("there are more numbers than files");
-        // Whatever is there is moved, a link or a pipe too, and not opened.
+        // Whatever is there is moved without being opened, even a link or a pipe.
         let damaged = self.directories.place(name(kind, address))?;
         match std::fs::rename(damaged, &aside) {
             Err(error) if error.kind() != ErrorKind::NotFound => {
@@ -300,8 +300,8 @@ impl Store {
         }
     }
 
-    /// The result of the given kind under `address`, a single file that `parse` reads, if there is one; an error if it
-    /// is damaged.
+    /// Reads the result of the given kind under `address`, a single file that `parse` reads, if there is one; fails
+    /// if it is damaged.
     pub(crate) fn sealed<T>(
         &self,
         kind: Kind,
@@ -344,7 +344,7 @@ impl Store {
         }
     }
 
-    /// The place of the result of the given kind under `address`.
+    /// Returns the path of the result of the given kind under `address`.
     fn path(&self, kind: Kind, address: &str) -> Result<PathBuf, FileError> {
         let path = self.directories.place(name(kind, address))?;
         if kind == Kind::Run {
@@ -362,7 +362,8 @@ impl Store {
 }
 
 impl Reading {
-    /// The way on after an `error` that keeps this program from writing to the store; any other error is returned.
+    /// Gives read-only access after an `error` that keeps this program from writing to the store; returns any other
+    /// error.
     fn after(error: StoreError) -> Result<Self, StoreError> {
         use ErrorKind as Kind;
         let cannot_write = [
@@ -390,12 +391,12 @@ impl Reading {
 
 impl Drop for Reading {
     fn drop(&mut self) {
-        // Stays if it holds the files of failed runs.
+        // The directory stays if it holds the files of failed runs.
         let _ = std::fs::remove_dir(&self.work);
     }
 }
 
-/// The path in a store of the result of the given kind under `address`.
+/// Returns the path in a store of the result of the given kind under `address`.
 fn name(kind: Kind, address: &str) -> PathBuf {
     let directory = PathBuf::from(format!("{}s", kind.name()));
     match kind {

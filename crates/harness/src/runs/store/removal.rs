@@ -8,12 +8,12 @@ use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 impl Store {
-    /// Removes `entries`. Each disappears in one instant: it is renamed into the directory for unfinished work of this
-    /// session, and deleted there, where a killed program leaves it to the next one.
+    /// Removes `entries`. Each disappears in one instant: it is renamed into this session's directory for unfinished
+    /// work, and deleted there. If the program is killed, the next one deletes it.
     ///
     /// # Errors
-    /// If another program uses the store, or the file system refuses: then it ends at the first entry that stays, and
-    /// those before it are removed.
+    /// If the store can only be read, another program uses it, or the file system refuses. In the last case removal
+    /// stops at the first entry that stays; those before it are removed.
     pub fn remove(&self, entries: &[StoredEntry]) -> Result<(), StoreError> {
         let session = match self.access.as_ref() {
             Access::Full(session) => session,
@@ -34,18 +34,18 @@ impl Store {
             }
             Ok(())
         });
-        // Others may begin: what is deleted now no longer belongs to the store.
+        // Other programs may begin: what is deleted now no longer belongs to the store.
         drop(alone);
         let deleted = removed.into_iter().map(|(entry, aside)| {
             let deleted = delete(&aside);
             deleted.map_err(|error| not_removed(entry, error))
         });
-        // All are deleted, whichever of them fails.
+        // The others are deleted even if one fails.
         let deleted: Vec<Result<(), StoreError>> = deleted.collect();
         taken.and_then(|()| deleted.into_iter().collect())
     }
 
-    /// Renames `entry` to `aside`; whether it was still there.
+    /// Renames `entry` to `aside`; returns whether it was still there.
     fn take_out(&self, entry: &StoredEntry, aside: &Path) -> Result<bool, FileError> {
         // Every directory on the way is the store's own, and none is a link.
         let path: PathBuf = self.directories.place(&entry.place)?;
@@ -55,7 +55,7 @@ impl Store {
         }
         let has_own_group = matches!(entry.kind, EntryKind::Run | EntryKind::FailedRun);
         if let Some(group) = path.parent().filter(|_| has_own_group) {
-            // Stays if it holds anything else.
+            // The group stays if it holds anything else.
             let _ = fs::remove_dir(group);
         }
         Ok(true)
@@ -70,7 +70,7 @@ fn not_removed(entry: &StoredEntry, error: FileError) -> StoreError {
     }
 }
 
-/// Deletes a directory or a file; a link itself, not what it points to.
+/// Deletes a directory or a file; deletes a link itself, not its target.
 fn delete(path: &Path) -> Result<(), FileError> {
     let found = fs::symlink_metadata(path).map_err(FileError::reading(path))?;
     let deleted = match found.is_dir() {

@@ -26,16 +26,16 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 // Directories of a store.
 const SESSIONS: &str = "sessions";
 const WORK: &str = "work";
-/// The beginning of the name of every session.
+/// Prefix of the name of every session.
 const PREFIX: &str = "session-";
 const ENDING: &str = ".json";
-/// The beginning of the name of a session file that does not say its owner yet.
+/// Prefix of the name of a session file that does not say its owner yet.
 const DRAFT: &str = "draft-";
-/// Permissions of a session file, which other users of a shared store read.
+/// Permissions of a session file, which other users of a shared store may read.
 const READABLE: u32 = 0o644;
 /// Permissions of its directory for unfinished work.
 const PRIVATE: u32 = 0o700;
-/// Largest session file that is read, in bytes: that of a million runs.
+/// Size limit for session files, in bytes: that of a million runs.
 const LARGEST: u64 = 1 << 27;
 
 /// The name of a session: that of its file, without its ending, and of its directory for unfinished work.
@@ -43,14 +43,14 @@ const LARGEST: u64 = 1 << 27;
 struct SessionName(String);
 
 impl SessionName {
-    /// The name of the session with this `file`; `None` for a file that is no session's.
+    /// Returns the name of the session with this `file`; `None` if the file is not that of a session.
     fn of(file: &OsStr) -> Option<Self> {
         let name = file.to_str()?.strip_suffix(ENDING)?;
         let is_own = is_temporary(name.as_ref(), PREFIX.as_ref());
         is_own.then(|| Self(name.to_owned()))
     }
 
-    /// The name of the session whose file is the `draft`.
+    /// Returns the name of the session whose file is still the `draft`.
     fn of_draft(draft: &Path) -> Self {
         let name = draft.file_name().unwrap_or_default().to_string_lossy();
         Self(format!("{PREFIX}{}", name.trim_start_matches(DRAFT)))
@@ -65,7 +65,7 @@ impl SessionName {
     }
 }
 
-/// The content of a session file. The owner, which never changes, stands first and is never written again: it can be read
+/// The content of a session file. The owner stands first, never changes and is never written again: it can be read
 /// whenever the program is killed.
 #[derive(Debug, Serialize, Deserialize)]
 struct Claims {
@@ -79,7 +79,7 @@ impl Claims {
         serde_json::to_vec(self).expect("plain data has a JSON form")
     }
 
-    /// How many bytes of the JSON form no change of the addresses changes.
+    /// Number of leading bytes of the JSON form that stay the same when addresses change.
     fn unchanging(&self) -> usize {
         let owner = serde_json::to_vec(&self.owner).expect("plain data has a JSON form");
         BEFORE_OWNER.len() + owner.len()
@@ -89,7 +89,7 @@ impl Claims {
 /// The JSON form of claims up to the owner.
 const BEFORE_OWNER: &[u8] = b"{\"owner\":";
 
-/// The owner of a session, also of one that was killed while it wrote its addresses.
+/// Reads the owner of a session, even of one that was killed while it wrote its addresses.
 fn owner(session: &Path) -> Option<LockOwner> {
     let text = read_bounded(session, LARGEST, Links::Refused).ok()?;
     let owner = text.strip_prefix(BEFORE_OWNER)?;
@@ -116,8 +116,8 @@ struct State {
 }
 
 impl Session {
-    /// Begins a session in a store, after the leftovers of dead ones are removed. Its file has the name of one only when it
-    /// says its owner, so that what a killed program leaves is known for its own.
+    /// Begins a session in a store, after removing the leftovers of dead ones. Its file gets the name of a session
+    /// only once it says its owner, so that whatever a killed program leaves is known to be its own.
     pub(super) fn begin(directories: &Directories) -> Result<Self, StoreError> {
         let root = directories.root();
         let sessions = directories.create(SESSIONS)?;
@@ -197,7 +197,7 @@ impl Session {
     /// Keeps other programs from beginning to use the store as long as the returned lock lives.
     ///
     /// # Errors
-    /// If one uses it already, or one of another machine may.
+    /// If another program uses it already, or one on another machine may.
     pub(super) fn alone(&self) -> Result<Lock, StoreError> {
         let state = self.state();
         let lock = self.lock(&state)?;
@@ -205,7 +205,7 @@ impl Session {
         let names = sessions(&self.root).into_iter();
         let others = names.filter(|name| *name != self.name);
         let mut others = others.map(|name| name.file(&self.root));
-        // Sessions that end do not wait for the lock.
+        // Sessions end without waiting for the lock.
         let used_by = others.find_map(|session| match is_gone(&session) {
             true => None,
             false => Some(self.use_by(session, &state.claims.owner.host)),
@@ -216,7 +216,7 @@ impl Session {
         }
     }
 
-    /// The error that another `session` is using the store, for a program on the machine `here`.
+    /// Returns the error that another `session` is using the store, for a program on the machine `here`.
     fn use_by(&self, session: PathBuf, here: &str) -> StoreError {
         let path = self.root.clone();
         let Some(Claims { owner, .. }) = claims(&session) else {
@@ -238,7 +238,7 @@ impl Session {
         Lock::acquire(&self.root.join("lock"), &state.claims.owner)
     }
 
-    /// Addresses claimed by other live sessions, with their owners.
+    /// Returns the addresses claimed by other live sessions, with their owners.
     fn others(&self) -> HashMap<String, LockOwner> {
         remove_dead(&self.root);
         let others = sessions(&self.root).into_iter();
@@ -253,7 +253,7 @@ impl Session {
         owned.collect()
     }
 
-    /// A panic cannot leave a set of addresses half changed, so that poison does not matter.
+    /// Locks the state. A panic cannot leave a set of addresses half changed, so poison does not matter.
     fn state(&self) -> MutexGuard<'_, State> {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
@@ -274,20 +274,20 @@ impl State {
 
 impl Drop for Session {
     fn drop(&mut self) {
-        // Stays if it holds the files of failed runs.
+        // The directory stays if it holds the files of failed runs.
         let _ = fs::remove_dir(&self.work);
         let _ = fs::remove_file(&self.path);
     }
 }
 
-/// All sessions of the store at `root`.
+/// Lists all sessions of the store at `root`.
 fn sessions(root: &Path) -> Vec<SessionName> {
     let entries = fs::read_dir(root.join(SESSIONS)).into_iter().flatten();
     let names = entries.flatten().map(|entry| entry.file_name());
     names.filter_map(|name| SessionName::of(&name)).collect()
 }
 
-/// The directories for unfinished work, as paths in the store at `root`, of sessions that have ended.
+/// Lists the directories for unfinished work of sessions that have ended, as paths in the store at `root`.
 pub(super) fn leftovers(root: &Path) -> Vec<PathBuf> {
     let entries = fs::read_dir(root.join(WORK)).into_iter().flatten();
     let directories = entries.flatten().filter(|entry| {
@@ -301,7 +301,7 @@ pub(super) fn leftovers(root: &Path) -> Vec<PathBuf> {
     ended.map(|name| Path::new(WORK).join(name.0)).collect()
 }
 
-/// Whether there is no such session any more.
+/// Whether the session no longer exists.
 fn is_gone(session: &Path) -> bool {
     let found = fs::symlink_metadata(session);
     found.is_err_and(|error| error.kind() == std::io::ErrorKind::NotFound)
@@ -312,7 +312,7 @@ fn claims(session: &Path) -> Option<Claims> {
     serde_json::from_slice(&text).ok()
 }
 
-/// Whether no program on this machine has locked it.
+/// Whether no program on this machine has locked the session file.
 fn is_unlocked(session: &Path) -> bool {
     let file = open_regular(session, Links::Refused, File::options().read(true));
     file.is_ok_and(|file| file.try_lock_shared().is_ok())
@@ -330,16 +330,16 @@ fn is_local(file: &File) -> bool {
     fstatfs(file).is_ok_and(|found| local.contains(&found.filesystem_type()))
 }
 
-/// Removes the leftovers of dead sessions. Must be called under the lock, so that no session is between its
-/// creation and its own lock. A session of another machine is left to that one: on some file systems its lock
-/// cannot be seen from here. One whose owner cannot be read may be of another machine.
+/// Removes the leftovers of dead sessions. Must be called under the lock, so that no session is between its creation
+/// and its own lock. Sessions of another machine are left to that machine, because on some file systems their locks
+/// cannot be seen from here. A session whose owner cannot be read may be of another machine.
 fn remove_dead(root: &Path) {
     let here = LockOwner::this_program().host;
     for name in sessions(root) {
         let session = name.file(root);
         let is_own = || owner(&session).is_some_and(|owner| owner.host == here);
         if is_unlocked(&session) && is_own() {
-            // If that fails the session file stays, and the next program tries again.
+            // If that fails, the session file stays and the next program tries again.
             let removed = match fs::remove_dir_all(name.work(root)) {
                 Err(error) => error.kind() == std::io::ErrorKind::NotFound,
                 Ok(()) => true,
@@ -381,7 +381,7 @@ mod tests {
         assert_eq!(one.claim(&bc).unwrap(), [None, None]);
     }
 
-    /// Session file and work directory of an `owner` that claimed "a", and has no lock any more.
+    /// Creates the session file and the work directory of an `owner` that claimed "a" and no longer has a lock.
     fn leftovers(root: &Path, owner: LockOwner) -> [PathBuf; 2] {
         let names = [
             "sessions/session-abcdefABCDEF.json",
@@ -461,7 +461,7 @@ mod tests {
         assert!(session.alone().is_ok());
     }
 
-    /// Wherever a program is killed while it writes its claims, or begins.
+    /// A program may be killed at any point while it writes its claims, or begins.
     #[test]
     fn what_a_killed_program_leaves_of_its_session_goes() {
         let root = tempfile::tempdir().unwrap();

@@ -13,7 +13,7 @@ pub struct NamedPassport {
     pub name: String,
     /// Its JSON.
     pub text: Vec<u8>,
-    /// The same, read.
+    /// The passport that this JSON holds.
     pub passport: FiledPassport,
 }
 
@@ -22,7 +22,7 @@ pub struct NamedPassport {
 pub struct Atlas {
     /// The latest passport of each version of each style.
     pub passports: Vec<NamedPassport>,
-    /// Those in whose place there are later ones of the same version.
+    /// Passports that later ones of the same version have replaced.
     pub replaced: Vec<NamedPassport>,
 }
 
@@ -38,7 +38,7 @@ pub struct Edge<'a> {
 }
 
 impl NamedPassport {
-    /// The passport with this JSON `text`.
+    /// Reads the passport in this JSON `text`.
     ///
     /// # Errors
     /// If it is no passport.
@@ -52,18 +52,18 @@ impl NamedPassport {
         })
     }
 
-    /// Program and style, as they stand in names: what versions share.
+    /// Returns program and style as they stand in names, which all versions share.
     fn lineage(&self) -> [String; 2] {
         [&self.passport.software, &self.passport.style].map(|part| plain(part))
     }
 
-    /// What the order of passports follows.
+    /// Returns the key by which passports are sorted: program and style, then version.
     fn place(&self) -> ([String; 2], Vec<i64>, String) {
         let version = &self.passport.program.version;
         (self.lineage(), version_order(version), version.clone())
     }
 
-    /// The properties that are not what was declared or asked for.
+    /// Returns the properties that differ from what was declared or asked for.
     pub fn differing(&self) -> impl Iterator<Item = &str> {
         let properties = self.passport.properties.iter();
         let off = properties.filter(|own| own.verdict == Verdict::Differs);
@@ -72,7 +72,7 @@ impl NamedPassport {
 }
 
 impl Atlas {
-    /// The atlas of `passports`.
+    /// Sorts `passports` into an atlas.
     pub fn new(mut passports: Vec<NamedPassport>) -> Self {
         passports.sort_by(|one, other| one.passport.date.cmp(&other.passport.date));
         let mut latest = BTreeMap::new();
@@ -86,13 +86,13 @@ impl Atlas {
         }
     }
 
-    /// The passports of each style of each program, oldest version first.
+    /// Returns the passports of each style of each program, oldest version first.
     pub fn lineages(&self) -> impl Iterator<Item = &[NamedPassport]> {
         self.passports
             .chunk_by(|one, next| one.lineage() == next.lineage())
     }
 
-    /// Every change from one version of a style to the next.
+    /// Returns every change from one version of a style to the next.
     pub fn edges(&self) -> Vec<Edge<'_>> {
         let steps = self.lineages().flat_map(|versions| versions.windows(2));
         let edges = steps.map(|step| Edge {
@@ -103,7 +103,7 @@ impl Atlas {
         edges.filter(|edge| !edge.difference.is_none()).collect()
     }
 
-    /// The names of all properties, in the order of the passports.
+    /// Returns the names of all properties, in the order of the passports.
     pub fn properties(&self) -> Vec<&str> {
         let mut names: Vec<&str> = Vec::new();
         for row in self

@@ -11,13 +11,13 @@ pub struct Meaning {
     pub name: String,
     /// Name in prose.
     pub title: String,
-    /// The properties that it belongs to.
+    /// The group of properties that it belongs to.
     pub group: String,
     /// Definition.
     pub text: String,
     /// Whether it moves the quasi-static yield force.
     pub moves_force: bool,
-    /// What it changes in the yield force.
+    /// How it changes the yield force.
     pub force: String,
 }
 
@@ -35,7 +35,7 @@ pub fn meanings() -> &'static [Meaning] {
     &MEANINGS
 }
 
-/// The name of a property without the kind of contact and without the axis, and both of these.
+/// Splits the name of a property into its base name, and the kind of contact and the axis together.
 pub fn base_name(property: &str) -> (&str, String) {
     let kinds = ["pair", "floor", "wall"];
     let kind = kinds.into_iter().find_map(|kind| {

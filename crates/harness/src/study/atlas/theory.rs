@@ -6,11 +6,11 @@ use crate::model::{Arms, ContactConvention, Stack};
 use crate::study::convention::FiledPassport;
 use crate::theory::quasistatic_limit;
 
-/// Frictions at which curves are computed.
+/// Number of frictions at which curves are computed.
 const FRICTIONS: usize = 81;
 /// The stiffness of the curves, k_n r/(m g).
 pub const SPREAD_STIFFNESS: f64 = 1e2;
-/// Arms are rounded to this part of a unit, so that rounding of the codes makes no group of its own.
+/// Arms are rounded to the inverse of this, so that rounding in the codes forms no groups of its own.
 const ROUNDING: f64 = 1e6;
 
 /// The yield force of the paper's stack under the arms of some codes.
@@ -31,7 +31,7 @@ pub struct ArmCurve {
     pub stack: Stack,
     /// The arm, and the change of the yield force in percent.
     pub points: Vec<(f64, f64)>,
-    /// The same at the arms of codes.
+    /// Arm and change at the arms of codes.
     pub codes: Vec<(f64, f64)>,
 }
 
@@ -47,8 +47,8 @@ pub struct StiffnessLaw {
 }
 
 impl StiffnessLaw {
-    /// The law of the stiffness `name`, such as `floor_tangential_stiffness`. That of a normal force K overlap^p is
-    /// p K overlap^(p − 1).
+    /// Returns the law of the stiffness `name`, such as `floor_tangential_stiffness`. A normal force K overlap^p has
+    /// the stiffness p K overlap^(p − 1).
     pub fn of(passport: &FiledPassport, name: &str) -> Option<Self> {
         let number = |name: &str| passport.property(name).map(|row| row.measured);
         let coefficient = number(name)??;
@@ -69,14 +69,14 @@ impl StiffnessLaw {
         })
     }
 
-    /// The stiffness at an `overlap` in r.
+    /// Returns the stiffness at an `overlap` in r.
     pub fn at(&self, overlap: f64) -> f64 {
         self.stiffness * libm::pow(overlap, self.exponent)
     }
 }
 
 impl NamedPassport {
-    /// All four arms; `None` where one is unknown.
+    /// Returns all four arms; `None` where one is unknown.
     pub fn arms(&self) -> Option<Arms> {
         let mut arms = Arms::PAPER;
         for key in ConventionKey::ARMS {
@@ -93,7 +93,7 @@ impl NamedPassport {
     }
 }
 
-/// The change of the yield force of `stack` under `arms`, in percent of F + 3 under the paper's.
+/// Returns the change of the yield force of `stack` under `arms`, in percent of F + 3 under the paper's.
 fn change(stack: &Stack, arms: Arms) -> Option<f64> {
     let force = |arms| quasistatic_limit(stack, &ContactConvention::with_arms(arms)).yield_force;
     let (paper, own) = force(Arms::PAPER).zip(force(arms))?;
@@ -101,7 +101,8 @@ fn change(stack: &Stack, arms: Arms) -> Option<f64> {
 }
 
 impl Atlas {
-    /// One material under every convention: linear codes with the same arms together, the paper's arms first.
+    /// Computes one stiffness under the arms of all linear codes. Codes with the same arms form one group; the
+    /// paper's arms come first.
     pub fn spread(&self) -> Vec<Spread> {
         let mut spread: Vec<Spread> = Vec::new();
         for own in self.passports.iter().filter(|own| own.is_linear()) {
@@ -127,7 +128,7 @@ impl Atlas {
         spread
     }
 
-    /// What the arm `key` alone does to three stacks, with the codes on the curves.
+    /// Computes what the arm `key` alone does to the yield force of three stacks, with the codes on the curves.
     pub fn arm_curves(&self, key: ConventionKey) -> Vec<ArmCurve> {
         let with = |value: f64| {
             let mut arms = Arms::PAPER;

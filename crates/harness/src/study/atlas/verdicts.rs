@@ -58,19 +58,19 @@ pub struct CodeVerdicts<'a> {
 /// Why a file has no verdicts.
 #[derive(Debug, Error)]
 pub enum UnreadableVerdicts {
-    /// It is no JSON, or lacks columns of a crosscheck.
+    /// It is not JSON, or lacks columns of a crosscheck.
     #[error(transparent)]
     Malformed(#[from] serde_json::Error),
-    /// It is something else.
+    /// It has another schema.
     #[error("`schema` is `{0}`; accepted is {CROSSCHECK}, as tristack crosscheck --out writes it")]
     OtherSchema(String),
 }
 
 impl Verdicts {
-    /// The rows in the JSON `text` of a crosscheck.
+    /// Reads the rows in the JSON `text` of a crosscheck.
     ///
     /// # Errors
-    /// If it is none.
+    /// If `text` is not the JSON of a crosscheck.
     pub fn read(text: &[u8]) -> Result<Self, UnreadableVerdicts> {
         let schema = schema_of(text)?;
         if schema != CROSSCHECK {
@@ -79,7 +79,7 @@ impl Verdicts {
         Ok(serde_json::from_slice(text)?)
     }
 
-    /// The rows of every code together, in the order of their first row.
+    /// Sums up the rows of every code, in the order of their first rows.
     pub fn by_code(&self) -> Vec<CodeVerdicts<'_>> {
         let mut codes: Vec<&str> = Vec::new();
         for row in &self.rows {

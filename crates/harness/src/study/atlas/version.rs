@@ -4,11 +4,12 @@ const MONTHS: [&str; 12] = [
     "jan", "feb", "mar", "apr", "may", "jun", "jul", "aug", "sep", "oct", "nov", "dec",
 ];
 
-/// Words of what comes before a release.
+/// Words that mark a pre-release.
 const EARLY: [&str; 5] = ["dev", "pre", "alpha", "beta", "rc"];
 
-/// The numbers by which versions are ordered: year, month and day where a month is named, then all others as they stand. What
-/// comes before a release counts less than nothing.
+/// Returns the numbers by which versions are ordered: year, month and day where a month is named, then all others as
+/// they stand. A word for a pre-release counts as −1, and 0 ends every version, so that a pre-release comes before
+/// its release.
 pub(super) fn version_order(version: &str) -> Vec<i64> {
     let lower = version.to_lowercase();
     let mut words = words(&lower);
@@ -35,7 +36,7 @@ pub(super) fn version_order(version: &str) -> Vec<i64> {
     order
 }
 
-/// The runs of digits and the runs of letters.
+/// Returns the runs of digits and the runs of letters.
 fn words(text: &str) -> Vec<&str> {
     let kind = |byte: u8| (byte.is_ascii_digit(), byte.is_ascii_alphabetic());
     let runs = text

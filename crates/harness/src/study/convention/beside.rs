@@ -1,29 +1,30 @@
-//! Least squares in a few numbers on which forces do not depend linearly, beside coefficients on which they do.
+//! Least squares with a few nonlinear parameters, beside linear coefficients that every round solves for (variable
+//! projection).
 
 use super::regression::{Measured, deviations, fit_rows};
 
 /// Terms and target of every row.
 pub type Rows = Vec<(Vec<f64>, f64)>;
 
-/// Part of the targets below which the effect of a number is that of rounding.
+/// Effect of a parameter, relative to the targets, below which it counts as rounding.
 const NEGLIGIBLE: f64 = 1e-9;
 /// Growth of the squared deviations from which a step is too long.
 const WORSE: f64 = 4.0;
-/// How often such a step is halved.
+/// Largest number of times that such a step is halved.
 const HALVINGS: usize = 8;
 
 /// The best fit.
 pub struct Beside<const N: usize> {
-    /// The numbers; unknown where they have no effect.
+    /// The nonlinear parameters; unknown where they have no effect.
     pub others: [Measured; N],
-    /// The numbers of the best fit, those of its start where they have no effect.
+    /// Their values in the best fit; those of the start where they have no effect.
     pub at: [f64; N],
-    /// The coefficients.
+    /// The linear coefficients.
     pub coefficients: Vec<Measured>,
 }
 
-/// Fits the numbers by Gauss–Newton from `start`, beside the coefficients of the `terms` that they give, so many `columns`. Slopes are those
-/// over one `step`. Uncertainties are those of all together.
+/// Fits the nonlinear parameters by Gauss–Newton from `start`, beside the `columns` linear coefficients of the
+/// `terms` that they give. Slopes are differences over one `step`. Uncertainties are those of the joint fit.
 pub fn fit_beside<const N: usize>(
     start: [f64; N],
     step: f64,
@@ -64,7 +65,7 @@ pub fn fit_beside<const N: usize>(
     found
 }
 
-/// The slope of the fitted forces over each number, where it has an effect.
+/// The slope of the fitted forces in each parameter; `None` where it has no effect.
 fn slopes<const N: usize>(
     rows: &Rows,
     columns: usize,
@@ -91,7 +92,8 @@ fn slopes<const N: usize>(
     })
 }
 
-/// The share of the changes that is taken: all, or so little that the deviations do not grow much from those `before`.
+/// The share of the changes that is applied: all, or so little that the deviations do not grow much beyond those
+/// `before`.
 fn shortened<const N: usize>(
     at: [f64; N],
     changes: &[Option<Measured>; N],
@@ -111,7 +113,7 @@ fn shortened<const N: usize>(
     share
 }
 
-/// Mean square of what the best coefficients leave of the targets.
+/// Mean squared deviation that the best linear fit leaves.
 fn left(rows: &Rows, columns: usize) -> f64 {
     deviations(rows, columns).map_or(f64::INFINITY, |(mean, _)| mean)
 }

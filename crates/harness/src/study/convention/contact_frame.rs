@@ -10,7 +10,7 @@ use crate::series::{Motion, MotionRow};
 pub struct ContactRow {
     /// Unit normal, towards cylinder 1.
     pub normal: [f64; 2],
-    /// That of the step before.
+    /// The normal of the step before.
     pub last_normal: [f64; 2],
     pub overlap: f64,
     /// Normal velocity, positive when separating.
@@ -19,12 +19,12 @@ pub struct ContactRow {
     pub tangential_speed: f64,
     /// Angular velocities of both sides; 0 for the floor and the wall.
     pub spins: [f64; 2],
-    /// Without the lift.
+    /// Normal force without the lift.
     pub normal_force: f64,
     /// Tangential force on cylinder 1.
     pub tangential_force: f64,
-    /// Part along the normal of the force of spring and friction, if nothing turns the spring with its contact; 0 in a row as
-    /// read.
+    /// Component of the force of spring and friction along the normal, if the spring does not turn with its contact;
+    /// 0 in a row as read.
     pub lift: f64,
     /// Torque on cylinder 1.
     pub torque: f64,
@@ -42,7 +42,7 @@ impl ContactRow {
         self.spins[0] + self.spins[1]
     }
 
-    /// Size of the force of spring and friction.
+    /// Magnitude of the force of spring and friction.
     pub fn friction_force(&self) -> f64 {
         self.tangential_force.hypot(self.lift)
     }

@@ -1,4 +1,4 @@
-//! Work of closed cycles in overlap and tangential displacement, in which a cylinder is moved as prescribed.
+//! Work of closed cycles in overlap and tangential displacement, along which a cylinder is driven.
 
 use super::clock::Clock;
 use super::contact_frame::{ContactRow, contact_rows};
@@ -12,10 +12,10 @@ use crate::model::{ContactConvention, ContactTest};
 use crate::series::Motion;
 use crate::theory::{CycleOrder, cycle_work};
 
-/// Roundings of a position by which the end of a cycle may differ from its beginning.
+/// Largest distance between the end and the beginning of a cycle, in roundings of a position.
 const ROUNDINGS: f64 = 16.0;
 
-/// Kinds of contacts that are driven: the top wall has no friction.
+/// Kinds of contacts that are driven; not the top wall, which has no friction.
 const KINDS: [ContactKind; 2] = [ContactKind::Pair, ContactKind::Floor];
 
 /// The name of the work of a cycle, without the kind of contact.
@@ -26,14 +26,14 @@ fn name(order: CycleOrder) -> &'static str {
     }
 }
 
-/// The contacts that are driven, and what comes first.
+/// The driven contacts, each in every order of pressing and shearing.
 fn cycles() -> impl Iterator<Item = (ContactKind, CycleOrder)> {
     let kinds = KINDS.into_iter();
     kinds.flat_map(|kind| CycleOrder::ALL.map(|order| (kind, order)))
 }
 
-/// The micro-tests in which cylinder 1 is moved as prescribed. Springs of constant stiffness give back what they are
-/// given: none where the law is declared to be linear.
+/// The micro-tests in which cylinder 1 is driven along a prescribed path. There are none for a law that is declared
+/// linear, because springs of constant stiffness return all energy.
 pub fn tests(convention: &ContactConvention) -> Vec<ContactTest> {
     let cycles = cycles().filter(|_| !convention.law.is_linear());
     cycles
@@ -41,7 +41,7 @@ pub fn tests(convention: &ContactConvention) -> Vec<ContactTest> {
         .collect()
 }
 
-/// The work of every cycle, over the energy that the spring of the measured law has at the higher overlap.
+/// The work of every cycle, in units of the energy that the spring of the measured law stores at the higher overlap.
 pub fn properties<'a>(
     outcomes: &[TestedMotion],
     clock: &Clock,
@@ -60,8 +60,8 @@ pub fn properties<'a>(
     outcomes.iter().zip(cycles()).filter_map(read).collect()
 }
 
-/// The work that is done on cylinder 1, against the force of its contact without the lift, which the rows of the contact have
-/// from step 1 on.
+/// The work done on cylinder 1 against the force of its contact without the lift. The lift is that of the rows
+/// `lifted`, which begin at step 1.
 fn work(motion: &Motion, lifted: &[ContactRow]) -> f64 {
     let lift = |step: usize, axis: usize| {
         let row = step.checked_sub(1).and_then(|index| lifted.get(index));
@@ -79,8 +79,9 @@ fn work(motion: &Motion, lifted: &[ContactRow]) -> f64 {
     steps.sum()
 }
 
-/// What rounding of the largest force leaves of the work, where the end of a cycle is not exactly its beginning; and of a
-/// pair, what the stiffness changes by while the overlap grows along a chord, by u²/(8ρ) at most.
+/// Uncertainty of the work from rounding: the largest force times the distance by which the end of a cycle may miss
+/// its beginning. For a pair it includes the change of the stiffness while the overlap grows along a chord, by
+/// u²/(8ρ) at most.
 fn uncertainty(kind: ContactKind, motion: &Motion, energy: f64) -> f64 {
     let forces = motion.rows().iter().map(|row| row.bodies()[0].force);
     let largest = forces.map(|[x, y]| x.hypot(y)).fold(0.0, f64::max);

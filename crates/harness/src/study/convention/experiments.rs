@@ -33,7 +33,7 @@ impl ContactKind {
         }
     }
 
-    /// The mass that the normal force accelerates, of bodies of the given mass.
+    /// The effective mass in the normal direction, for bodies of the given mass.
     pub fn effective_mass(self, mass: f64) -> f64 {
         match self {
             Self::Pair => 0.5 * mass,
@@ -55,7 +55,7 @@ const ROUGH: f64 = 0.9;
 const SLIPPERY: f64 = 0.2;
 /// Friction low enough that the limit is reached within a few steps, before the geometry changes noticeably.
 const SLEEK: f64 = 5e-4;
-/// Direction of the line between the cylinders of a pair, along no axis.
+/// Angle between the vertical and the line through the centres of a pair, which lies along no axis.
 const PAIR_ANGLE: f64 = 0.4;
 const PAIR_CENTRE: [f64; 2] = [0.0, 2.3];
 const WALL_HEIGHT: f64 = 4.5;
@@ -67,7 +67,8 @@ const BESIDE: InitialMotion = InitialMotion {
     spin: 0.0,
 };
 
-/// Motion of the first body relative to the second in the frame of the contact, spins of both, and how it is observed.
+/// Motion of the first body relative to the second in the frame of the contact, spins of both, and how the test
+/// observes it.
 #[derive(Clone, Copy)]
 struct Start {
     overlap: f64,
@@ -139,7 +140,7 @@ const SLIDING: Start = Start {
     ..AT_REST
 };
 
-/// The same where forces grow with a power of the overlap, and contacts last longer.
+/// The same for forces that grow with a power of the overlap, where contacts last longer.
 const SLIDING_SOFTLY: Start = Start {
     tangential_speed: 0.1,
     spin: -0.05,
@@ -165,8 +166,8 @@ pub const SHEAR: f64 = 3e-4;
 /// Steps of a leg of such a cycle.
 const LEG_STEPS: u64 = 50;
 
-/// Gentle motions, the same with half the time step, from which the times to which forces belong follow, a separation,
-/// and a motion that slides (not along the wall, which is frictionless).
+/// Gentle motions, the same with half the time step (which show the times to which forces belong), a separation, and
+/// a motion that slides (not along the wall, which is frictionless).
 pub fn common(kind: ContactKind, convention: &ContactConvention) -> Vec<ContactTest> {
     let refined = GENTLE.map(|gentle| Start {
         time_step: 0.5 * gentle.time_step,

@@ -1,4 +1,4 @@
-//! A passport as its file has it.
+//! A passport as read from its file.
 
 use super::passport::PASSPORT;
 use crate::code::Identity;
@@ -7,7 +7,7 @@ use crate::study::Verdict;
 use serde::{Deserialize, Deserializer};
 use thiserror::Error;
 
-/// Digits of the digest in a name.
+/// Digits of the digest in a permanent name.
 const DIGEST_DIGITS: usize = 8;
 
 /// A passport, read. The fields are described by `tristack schema passport`.
@@ -19,7 +19,7 @@ pub struct FiledPassport {
     pub code: String,
     /// Its name in prose.
     pub title: String,
-    /// The program, which its versions and styles share; the title in a passport of before it was written down.
+    /// Name of the program, shared by its versions and styles; the title in older passports, which lack it.
     #[serde(default)]
     pub software: String,
     /// The contact style, the same in all versions.
@@ -38,9 +38,9 @@ pub struct FiledPassport {
     pub date: String,
     /// Processor and system.
     pub machine: String,
-    /// What it leaves open.
+    /// What does not agree, or is not known.
     pub reservations: Vec<String>,
-    /// What its contacts do otherwise in long steps than in short ones.
+    /// What its contacts do differently in long time steps.
     pub time_step_effects: Vec<String>,
     /// The keys of its convention, as measured.
     #[serde(deserialize_with = "rows")]
@@ -83,7 +83,7 @@ pub struct ArmEffect {
     pub paper_force: Option<f64>,
     /// The force with the arms of the code, in m g.
     pub force: Option<f64>,
-    /// What the uncertainty of the arms leaves open of it, in m g.
+    /// Uncertainty of that force from the uncertainty of the arms, in m g.
     pub uncertainty: Option<f64>,
 }
 
@@ -102,22 +102,22 @@ pub struct PropertyRow {
     pub verdict: Verdict,
 }
 
-/// Why a file is no passport.
+/// Why a file is not a passport.
 #[derive(Debug, Error)]
 pub enum UnreadablePassport {
-    /// It is no JSON, or lacks keys of a passport.
+    /// It is not JSON, or lacks keys of a passport.
     #[error(transparent)]
     Malformed(#[from] serde_json::Error),
-    /// It is something else.
+    /// It has another schema.
     #[error("`schema` is `{0}`; accepted is {PASSPORT}, as tristack probe --out writes it")]
     OtherSchema(String),
 }
 
 impl FiledPassport {
-    /// The passport with this JSON `text`.
+    /// Reads a passport from its JSON `text`.
     ///
     /// # Errors
-    /// If it is no passport.
+    /// If it is not a passport.
     pub fn read(text: &[u8]) -> Result<Self, UnreadablePassport> {
         let schema = schema_of(text)?;
         if schema != PASSPORT {
@@ -133,12 +133,12 @@ impl FiledPassport {
         Ok(passport)
     }
 
-    /// The measured convention of a `key`.
+    /// The row of a `key` of the convention.
     pub fn key(&self, key: &str) -> Option<&KeyRow> {
         self.convention.iter().find(|row| row.key == key)
     }
 
-    /// What was measured of a `property`.
+    /// The row of a `property`.
     pub fn property(&self, property: &str) -> Option<&PropertyRow> {
         self.properties.iter().find(|row| row.property == property)
     }
@@ -152,7 +152,7 @@ impl KeyRow {
     }
 }
 
-/// The name of the format of a JSON document.
+/// The `schema` of a JSON document.
 pub(crate) fn schema_of(text: &[u8]) -> Result<String, serde_json::Error> {
     #[derive(Deserialize)]
     struct Named {
@@ -170,7 +170,8 @@ fn rows<'de, D: Deserializer<'de>, T: Deserialize<'de>>(input: D) -> Result<Vec<
     Table::deserialize(input).map(|table| table.rows)
 }
 
-/// The name of a passport with this JSON `text` for ever: program, version, style, and the first digits of its SHA-256.
+/// The permanent name of a passport with this JSON `text`: program, version, style, and the first digits of its
+/// SHA-256.
 pub fn permanent_name(passport: &FiledPassport, text: &[u8]) -> String {
     let digest = sha256_hex(text);
     let parts = [

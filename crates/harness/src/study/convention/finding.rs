@@ -12,10 +12,10 @@ pub const TOLERANCE: f64 = 1e-6;
 /// The same for the native code, which deviates from its declaration by rounding alone.
 pub const NATIVE_TOLERANCE: f64 = 1e-9;
 
-/// Largest uncertainty of a value that shows a rule; those of its alternatives are 1 apart.
+/// Largest uncertainty of a value that decides between rules, whose values are 1 apart.
 const CLEAR: f64 = 1e-2;
 
-/// Ends the name of the exponent with which a stiffness grows with the overlap.
+/// Suffix of the name of the exponent with which a stiffness grows with the overlap.
 pub const EXPONENT: &str = "_stiffness_exponent";
 
 /// Name of that exponent of the tangential stiffness, without the kind of contact.
@@ -32,9 +32,9 @@ pub const TANGENTIAL_DAMPING_EXPONENT: &str = "tangential_damping_exponent";
 pub const SHEARED_FIRST: &str = "cycle_work_sheared_first";
 pub const PRESSED_FIRST: &str = "cycle_work_pressed_first";
 
-/// Ends the name of the coefficient c with which a surface that turns by d in a step moves by d + c d³.
+/// Suffix of the name of the coefficient c of a surface that moves by d + c d³ when it turns by d in a step.
 pub const CUBED_TURN: &str = "cubed_turn";
-/// Turn of a step up to which such a coefficient has to be known well enough, larger than those of stacks.
+/// Turn in a step up to which such a coefficient must be known well enough; larger than those in stacks.
 const LARGEST_TURN: f64 = 1e-2;
 
 /// A property of one code, measured.
@@ -59,7 +59,7 @@ pub struct Finding {
 }
 
 impl Finding {
-    /// That a stiffness which is meant to be constant changes with the overlap, in words, if it is this that was found.
+    /// Says that a stiffness meant to be constant changes with the overlap; `None` if this is another finding.
     pub fn growth(&self) -> Option<String> {
         let stiffness = self.property.strip_suffix(EXPONENT)?;
         self.declared.filter(|declared| *declared == 0.0)?;
@@ -72,7 +72,7 @@ impl Finding {
         ))
     }
 
-    /// That a contact gives back more energy than it was given, in words, if it is this that was found.
+    /// Says that a contact gives back more energy than it was given; `None` if this is another finding.
     pub fn energy_made(&self) -> Option<String> {
         let name = self.property.as_str();
         let (kind, order) = [
@@ -91,7 +91,7 @@ impl Finding {
         })
     }
 
-    /// Why it is unknown, where that is known.
+    /// Says why the property is unknown, if the reason is known.
     pub fn unknown_because(&self) -> Option<&'static str> {
         let of_memory = self.key == Some(ConventionKey::SlidingSpring) && self.measured.is_none();
         of_memory.then_some(
@@ -100,7 +100,7 @@ impl Finding {
         )
     }
 
-    /// How the motion of a surface depends on the time step, in words, if it is this that was found.
+    /// Says how the motion of a surface depends on the time step; `None` if this is another finding.
     pub fn time_step_effect(&self) -> Option<String> {
         let kind = self
             .property
@@ -141,8 +141,8 @@ impl Property {
         Self::new(&format!("{}_{name}", kind.as_str()), measured, declared)
     }
 
-    /// The key of the manifest that it belongs to, if there is one. The damping of a contact has the arm of its surface
-    /// velocity.
+    /// The key of the manifest that it belongs to, if there is one. The arm of the damping belongs to the kinematic
+    /// arm, that of the surface velocity.
     pub fn key(&self) -> Option<ConventionKey> {
         Some(match self.name.as_str() {
             "pair_torque_arm" => ConventionKey::PairTorqueArm,
@@ -159,7 +159,7 @@ impl Property {
         })
     }
 
-    /// The same without a declared value if it belongs to one of the keys that are `left_out`.
+    /// The property, without a declared value if its key is among those `left_out`.
     pub fn unless_left_out(mut self, left_out: &[ConventionKey]) -> Self {
         if self.key().is_some_and(|key| left_out.contains(&key)) {
             self.declared = None;
@@ -167,7 +167,7 @@ impl Property {
         self
     }
 
-    /// Whether it is another one than declared.
+    /// Whether the measured value differs from the declared one.
     pub fn differs(&self) -> bool {
         let scale = self.declared.filter(|declared| *declared != 0.0);
         let error = self.declared.map(|own| self.measured.value - own);
@@ -183,7 +183,7 @@ impl Property {
         self.key().is_some_and(|key| rules.contains(&key))
     }
 
-    /// The finding on `code`.
+    /// Judges the property of `code`.
     pub fn judge(self, code: &Code, version: &str) -> Finding {
         let scale = match self.declared.unwrap_or_default() {
             _ if self.name.ends_with(CUBED_TURN) => (LARGEST_TURN * LARGEST_TURN).recip(),

@@ -1,21 +1,22 @@
-//! A stiffness that grows with the overlap, which no linear law has: the exponent that fits the motions.
+//! The exponent of a stiffness that grows with the overlap, unlike that of a linear law.
 
 use super::regression::Measured;
 
-/// Exponents among which the best one is searched, from a stiffness that falls to one that grows with the square.
+/// Range of exponents that are searched, from a stiffness that falls to one that grows with the square.
 const RANGE: (f64, f64) = (-1.5, 2.0);
 const GRID: usize = 14;
-/// Smallest exponent that is named: a stiffness that changes by a fortieth over the overlaps of the micro-tests.
+/// Smallest exponent that is reported: a stiffness that changes by a fortieth over the overlaps of the micro-tests.
 const SMALLEST: f64 = 0.01;
-/// Part of the squared deviations that a further term of a law must leave at most.
+/// A further term of a law counts as found if it leaves at most this fraction of the squared deviations.
 pub const EXPLAINED: f64 = 1e-2;
 /// Width of the interval to which the search narrows the exponent.
 const RESOLUTION: f64 = 1e-6;
 /// Step for the curvature of the squared deviations.
 const STEP: f64 = 1e-3;
 
-/// The exponent p at which a stiffness k δᵖ fits, if that is much better than a constant one. `deviations` gives the
-/// mean of the squared deviations, by freedom, that the best law with an exponent leaves, and the number of freedoms.
+/// The exponent p at which a stiffness k δᵖ fits best, if it fits much better than a constant one. `deviations` gives
+/// the mean squared deviation per degree of freedom that the best law with an exponent leaves, and the number of
+/// degrees of freedom.
 pub fn exponent(deviations: impl Fn(f64) -> Option<(f64, f64)>) -> Option<Measured> {
     let left = |p: f64| deviations(p).map_or(f64::INFINITY, |(mean, _)| mean);
     let constant = Some(left(0.0)).filter(|left| left.is_finite())?;
@@ -34,7 +35,7 @@ pub fn exponent(deviations: impl Fn(f64) -> Option<(f64, f64)>) -> Option<Measur
     Some(Measured::new(best, 3.0 * error + RESOLUTION))
 }
 
-/// The minimum of `value` between `low` and `high`, by golden sections.
+/// The minimum of `value` between `low` and `high`, by golden-section search.
 fn narrowed(mut low: f64, mut high: f64, value: &impl Fn(f64) -> f64) -> f64 {
     const GOLDEN: f64 = 0.618_033_988_749_894_9;
     while high - low > RESOLUTION {
@@ -51,7 +52,8 @@ fn narrowed(mut low: f64, mut high: f64, value: &impl Fn(f64) -> f64) -> f64 {
 mod tests {
     use super::*;
 
-    /// Forces k δᵖ at some overlaps, with a little noise, and what the best constant k leaves of them.
+    /// The exponent that is found from forces δᵖ at some overlaps, with a little noise, if the best k is taken at
+    /// every exponent tried.
     fn found(p: f64) -> Option<Measured> {
         let overlaps = [0.02, 0.05, 0.1, 0.2, 0.3];
         let noise = [1e-9, -1e-9, 1e-9, 1e-9, -1e-9];

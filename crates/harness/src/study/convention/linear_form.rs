@@ -8,7 +8,7 @@ use super::shape::{Growth, Memory};
 /// Fraction of Coulomb's limit up to which rows count as sticking.
 const CERTAINLY_STICKING: f64 = 0.5;
 
-/// Coefficients of the linear form: those of every law, and those of a law with a term of third order.
+/// Indices of the coefficients of the linear form, and their numbers without and with terms of third order.
 pub const SPRING: usize = 0;
 pub const SPRING_SPIN: usize = 1;
 pub const SPRING_SPIN_OVERLAP: usize = 2;
@@ -19,7 +19,7 @@ pub const SPRING_SPIN_CUBED: usize = 5;
 const COEFFICIENTS_OF_THIRD_ORDER: usize = 7;
 /// Change of an exponent over which the slope of the forces is taken.
 const EXPONENT_STEP: f64 = 1e-3;
-/// The same of what a turning contact does to its spring, which the forces depend on almost linearly.
+/// The same for what a turning contact does to its spring, on which the forces depend almost linearly.
 const TURNING_STEP: f64 = 1e-2;
 /// Steps of Gauss–Newton, in models that are almost linear.
 const ROUNDS: usize = 3;
@@ -37,9 +37,9 @@ pub struct Form {
     pub third_order: bool,
     /// Change of the spring's length in units of 1 − cos dψ, when the contact turns by dψ.
     pub transport: f64,
-    /// Share of the part along the normal that a spring keeps when the contact turns under it: 0 of one that follows the
-    /// contact, 1 of a vector that nothing turns. The transport of the latter is −1: its part along the tangent is
-    /// projected, and gains what its part along the normal turns into.
+    /// Share of its normal component that a spring keeps when the contact turns under it: 0 for a spring that follows
+    /// the contact, 1 for a vector that nothing turns. The transport of the latter is −1: its tangential component is
+    /// projected, and gains what the normal component turns into.
     pub left_behind: f64,
 }
 
@@ -63,7 +63,7 @@ impl Form {
         }
     }
 
-    /// The same with this transport and this share that is left behind.
+    /// The same with this transport and this share left behind.
     pub fn with_turning(self, [transport, left_behind]: [Measured; 2]) -> Self {
         Self {
             transport: transport.value,
@@ -79,7 +79,7 @@ impl Form {
         }
     }
 
-    /// How many coefficients are fitted to `motions`, with the initial forces of their springs.
+    /// Number of coefficients that are fitted to `motions`, including the initial force of each spring.
     pub fn columns(self, motions: &[&[ContactRow]]) -> usize {
         self.coefficients() + motions.len()
     }
@@ -89,13 +89,13 @@ impl Form {
         fit_rows(&self.terms(motions, radius), self.columns(motions))
     }
 
-    /// What the best fit leaves of the forces ([`deviations`]).
+    /// The deviations that the best fit leaves in the forces ([`deviations`]).
     pub fn deviations(self, motions: &[&[ContactRow]], radius: f64) -> Option<(f64, f64)> {
         deviations(&self.terms(motions, radius), self.columns(motions))
     }
 
-    /// The transport that fits best beside all coefficients. What rounding leaves adds up in a spring, so that a whole motion
-    /// counts as one number in its uncertainty.
+    /// The transport that fits best, together with all coefficients. Rounding accumulates in a spring, so that a
+    /// whole motion counts as one observation in the uncertainty.
     pub fn fit_transport(self, motions: &[&[ContactRow]], radius: f64) -> Measured {
         let with = |[transport]: [f64; 1]| Self { transport, ..self }.terms(motions, radius);
         let [found] = fit_beside([self.transport], 1.0, ROUNDS, self.columns(motions), with).others;
@@ -104,8 +104,8 @@ impl Form {
         Measured::new(found.value, found.uncertainty * alike)
     }
 
-    /// The transport and the share of a spring that is left behind that fit best beside all coefficients, near those of the
-    /// form. A whole motion counts as one number in their uncertainties.
+    /// The transport and the share left behind that fit best, together with all coefficients, near those of the form.
+    /// A whole motion counts as one observation in their uncertainties.
     pub fn fit_turning(self, motions: &[&[ContactRow]], radius: f64) -> [Measured; 2] {
         let with = |[transport, left_behind]: [f64; 2]| {
             let form = Self {
@@ -122,7 +122,7 @@ impl Form {
         found.map(|own| Measured::new(own.value, own.uncertainty * alike))
     }
 
-    /// The exponent that fits best beside all coefficients, near that of the form.
+    /// The exponent that fits best, together with all coefficients, near that of the form.
     pub fn fit_exponent(self, motions: &[&[ContactRow]], radius: f64) -> Measured {
         let with = |[exponent]: [f64; 1]| self.with_exponent(exponent).terms(motions, radius);
         let start = [self.stiffness.exponent];
@@ -144,7 +144,7 @@ impl Form {
         libm::pow(self.stiffness.at(row.overlap), self.memory.force_share)
     }
 
-    /// The factor with which what the spring remembers gives its force, beside k_t at an overlap of 1.
+    /// The factor with which what the spring remembers enters its force, apart from k_t at an overlap of 1.
     pub fn exerted(self, row: &ContactRow) -> f64 {
         let share = 1.0 - self.memory.force_share;
         libm::pow(self.stiffness.at(row.overlap), share)
@@ -155,7 +155,7 @@ impl Form {
         self.memory.rescaled(before, row) * carried(before, row, self.transport)
     }
 
-    /// Parts along tangent and normal of what the spring remembers, after the contact has turned between two rows.
+    /// Tangential and normal components of what the spring remembers, after the contact has turned between two rows.
     pub fn turned(
         self,
         [along, lift]: [f64; 2],
@@ -174,8 +174,8 @@ impl Form {
         ]
     }
 
-    /// Parts along tangent and normal of a spring of length 1 before the growth in the first row: it has it from the step
-    /// before, whose contact has turned once since.
+    /// Tangential and normal components of a spring of length 1 before the growth in the first row. It has that
+    /// length from the step before, and its contact has turned once since.
     pub fn begun(self, first: &ContactRow) -> [f64; 2] {
         [1.0, self.left_behind * sine(first)]
     }
@@ -203,8 +203,8 @@ impl Form {
                 let damped = self.damping.at(row.overlap);
                 let [across, spin, spin_overlap, cubed, cubed_overlap] =
                     springs.map(|[along, _]| along * stiffer);
-                // Translation and spin are coupled by the contact force itself; the damping of each cannot
-                // be told apart, and belongs to the radius of the torque.
+                // The contact force itself couples translation and spin. The damping of each cannot be told apart,
+                // and belongs to the radius of the torque.
                 let damping = -(speeds[0] + radius * speeds[1]) * damped;
                 let damping_overlap = -speeds[2] * damped;
                 let mut terms = vec![across, spin, spin_overlap, damping, damping_overlap];
@@ -246,7 +246,7 @@ pub fn sticking(rows: &[ContactRow]) -> &[ContactRow] {
     })
 }
 
-/// The first rows, as long as they are as wanted.
+/// The first rows, as long as they are `wanted`.
 pub fn as_long_as(rows: &[ContactRow], wanted: impl Fn(&ContactRow) -> bool) -> &[ContactRow] {
     let end = rows.iter().position(|row| !wanted(row));
     &rows[..end.unwrap_or(rows.len())]

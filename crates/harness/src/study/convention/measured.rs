@@ -16,7 +16,7 @@ pub enum ProbeError {
     /// The code failed, or it is not installed and no recorded probe stands in.
     #[error(transparent)]
     Unanswered(#[from] RunError),
-    /// The recorded answers are those to other questions.
+    /// The recorded answers are those to other micro-tests.
     #[error(
         "the recorded probe of {0} answers other micro-tests than today's; refresh it with: tristack record --codes {0}"
     )]
@@ -26,7 +26,7 @@ pub enum ProbeError {
     NoMicroTests(Code),
 }
 
-/// The keys of its convention that are not stated either.
+/// Names the keys of the convention that the manifest does not state either.
 fn not_stated(code: &Code) -> String {
     let keys = code.declaration().left_out;
     let keys: Vec<&str> = keys.into_iter().map(ConventionKey::as_str).collect();
@@ -38,7 +38,7 @@ fn not_stated(code: &Code) -> String {
 }
 
 impl ProbeError {
-    /// Whether nothing is wrong but that the user did not want to wait.
+    /// Whether nothing is wrong except that the user interrupted it.
     pub(crate) fn is_interrupted(&self) -> bool {
         matches!(self, Self::Unanswered(error) if error.is_interrupted())
     }
@@ -55,11 +55,11 @@ pub struct Findings {
     pub settled: Settled,
     /// Its convention as measured, whatever is declared.
     pub measured: Settled,
-    /// The digits with which it has printed the motions, if they are too few to contradict a declaration.
+    /// The number of digits with which it has printed the motions, if too few to contradict a declaration.
     pub few_digits: Option<u32>,
 }
 
-/// The findings on one selected.
+/// The findings on one selected code, or why there are none.
 pub type Probed = Result<Findings, ProbeError>;
 
 /// Probes `codes`, and returns the findings in their order.
@@ -107,7 +107,7 @@ fn answers(
         .collect()
 }
 
-/// What the answers of `code` to all micro-tests say.
+/// Reads the findings on `code` off its answers to all micro-tests.
 ///
 /// # Errors
 /// If they are answers to other micro-tests than today's.
@@ -129,7 +129,7 @@ pub fn read_probe(code: &Code, record: ProbeRecord) -> Probed {
         .answers
         .iter()
         .map(|answer| answer.motion.most_digits());
-    // Some motions are so simple that their numbers are short.
+    // The longest numbers count: some motions are so simple that their numbers are short.
     let few_digits = digits.max().filter(|digits| *digits < ENOUGH_DIGITS);
     let properties = properties.into_iter();
     let findings = properties.map(|property| {
@@ -148,7 +148,7 @@ pub fn read_probe(code: &Code, record: ProbeRecord) -> Probed {
     })
 }
 
-/// `finding` without a disagreement, which may be that of rounding.
+/// `finding` with a disagreement made inconclusive, since rounding may explain it.
 fn undecided(finding: Finding) -> Finding {
     let verdict = match finding.verdict {
         Verdict::Differs => Verdict::Inconclusive,
@@ -157,8 +157,7 @@ fn undecided(finding: Finding) -> Finding {
     Finding { verdict, ..finding }
 }
 
-/// Whether the declaration is known to be wrong: a property that could not be measured well enough says
-/// nothing.
+/// Whether the declaration is known to be wrong. A property that could not be measured well enough does not count.
 pub fn is_contradicted(probed: &Probed) -> bool {
     let differs = |finding: &Finding| finding.verdict == Verdict::Differs;
     probed
@@ -176,7 +175,7 @@ pub fn arms_are_measured(probed: &Probed) -> bool {
     arms.all(|finding| finding.verdict == Verdict::Agrees)
 }
 
-/// The first of the programs whose runs a probe of another program must not vouch for, if there is one.
+/// Names the first of the programs whose runs a probe of another program must not vouch for, if there is one.
 pub fn other_program<'a>(
     probed: &Probed,
     mut runs: impl Iterator<Item = &'a Identity>,
@@ -200,7 +199,7 @@ fn described(identity: &Identity) -> String {
     format!("{} {}, {package}, {hash}", identity.code, identity.version)
 }
 
-/// The findings that are no agreement, one line each; what is unknown as well if the probe failed.
+/// The findings that do not agree, one line each; if the probe failed, one line that says why.
 pub fn contradictions(probed: &Probed) -> Vec<String> {
     match probed {
         Err(error) => vec![format!(
@@ -210,13 +209,13 @@ pub fn contradictions(probed: &Probed) -> Vec<String> {
     }
 }
 
-/// The findings that are no agreement with what is declared, one line each.
+/// The findings that do not agree with the declaration, one line each.
 pub fn contradicting(probe: &Findings) -> Vec<String> {
     let declared = probe.findings.iter().filter(|one| one.declared.is_some());
     let mut contradicting: Vec<&Finding> = declared
         .filter(|one| one.verdict != Verdict::Agrees)
         .collect();
-    // A stiffness that grows explains the others.
+    // A stiffness that grows explains the others, and comes before them.
     contradicting.sort_by_key(|one| (one.verdict != Verdict::Differs, one.growth().is_none()));
     let digits = probe.few_digits.map_or_else(String::new, |digits| {
         format!(" (printed with {digits} digits)")
@@ -317,7 +316,7 @@ mod tests {
         assert!(note.contains("tristack record --codes yade"), "{note}");
     }
 
-    /// A motion with every number rounded to so many digits.
+    /// A motion with every number rounded to this many `decimals` in scientific notation.
     fn rounded(motion: &Motion, decimals: usize) -> Motion {
         let round = |row: &MotionRow| {
             let mut row = serde_json::to_value(row).unwrap();
@@ -334,7 +333,7 @@ mod tests {
         Motion::new(rows, steps).unwrap()
     }
 
-    /// What is found of a code that is as declared, and prints so many digits.
+    /// The probe of a code that is as declared and prints this many `digits`.
     fn probe_with_digits(digits: usize) -> Probed {
         let code = Code::native();
         let mut answers = Vec::new();

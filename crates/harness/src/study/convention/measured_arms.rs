@@ -1,4 +1,4 @@
-//! What moves the limit of a code, as its passport has it: arms, and whether springs turn.
+//! What moves the limit of a code, read from its passport: arms, and whether springs turn.
 
 use super::filed::{FiledPassport, KeyRow, UnreadablePassport};
 use crate::code::ConventionKey;
@@ -6,31 +6,31 @@ use crate::model::{Arms, ContactConvention, HistoryUpdate, InvalidValue};
 use crate::study::Verdict;
 use thiserror::Error;
 
-/// The arms of a code, what is not known of them, and whether its springs turn.
+/// The arms of a code with their uncertainties, and whether its springs turn.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MeasuredArms {
-    /// The convention with their coefficients.
+    /// A convention with these arms.
     pub convention: ContactConvention,
-    /// The uncertainties of these.
+    /// The uncertainties of the arms.
     pub uncertainty: Arms,
 }
 
 /// Why a passport does not say what the arms of a code are.
 #[derive(Debug, Error)]
 pub enum UnusablePassport {
-    /// It is none.
+    /// It is not a passport.
     #[error(transparent)]
     Unreadable(#[from] UnreadablePassport),
     /// The motions of the code have not shown an arm.
     #[error("{0} is not measured in it; accepted is a passport with all four arms")]
     Unknown(ConventionKey),
-    /// An uncertainty that is none.
+    /// An uncertainty is not a finite number from 0.
     #[error("the uncertainty of {0} is {1}; accepted is a number from 0")]
     NoUncertainty(ConventionKey, f64),
-    /// An arm that no convention has.
+    /// An arm is out of range.
     #[error(transparent)]
     OutOfRange(#[from] InvalidValue),
-    /// Something else than an arm is not as declared, so that the limit is not known.
+    /// Something other than an arm is not as declared, so that the limit is not known.
     #[error(
         "the code is not what its manifest says ({0} differs), so that no limit is known for it"
     )]
@@ -38,14 +38,15 @@ pub enum UnusablePassport {
 }
 
 impl MeasuredArms {
-    /// The arms in the JSON `text` of a passport.
+    /// Reads the arms from the JSON `text` of a passport.
     ///
     /// # Errors
-    /// If it is no passport, an arm is unknown or out of range, or anything but an arm differs from what was asked for.
+    /// If it is not a passport, an arm is unknown or out of range, or anything but an arm differs from what was asked
+    /// for.
     pub fn of_passport(text: &[u8]) -> Result<Self, UnusablePassport> {
         let passport = FiledPassport::read(text)?;
         let mut properties = passport.properties.iter();
-        // An arm that is declared otherwise than measured is still the one that was measured.
+        // An arm that is not as declared is still known as measured.
         let other = properties
             .find(|own| own.verdict == Verdict::Differs && !own.property.ends_with("_arm"));
         if let Some(other) = other {
@@ -63,7 +64,7 @@ impl MeasuredArms {
             key.set_arm(&mut arms, value);
             key.set_arm(&mut uncertainty, open);
         }
-        // Springs turn unless they are seen not to; by which rule they do does not matter.
+        // Springs turn unless they are seen not to; the rule by which they turn does not matter.
         let update = passport.key(ConventionKey::HistoryUpdate.as_str());
         let measured = update.and_then(|own| own.measured.as_deref());
         let convention = ContactConvention {

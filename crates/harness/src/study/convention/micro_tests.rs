@@ -28,7 +28,7 @@ impl ScheduledTask for MicroTests {
         String::new()
     }
 
-    /// Too few to be worth a forecast.
+    /// 0: the steps are too few to be worth a forecast.
     fn steps(&self) -> u64 {
         0
     }
@@ -94,8 +94,8 @@ impl Reading for ProbeRecord {
     }
 }
 
-/// Whether the answers are made faster than they are read from the store, as those of the native code, on which all
-/// of tristack decides.
+/// Whether making the answers is faster than reading them from the store, as for the native code, whose answers
+/// depend on all of tristack.
 fn is_faster_made(code: &dyn InstalledCode) -> bool {
     code.name().is_native()
 }
@@ -109,7 +109,7 @@ fn is_current(record: &ProbeRecord, name: &Code) -> bool {
     probe(&name.declaration(), answered).is_ok()
 }
 
-/// Asks `code`, each round in a directory of its own.
+/// Carries out the micro-tests with `code`, each round in a directory of its own.
 pub(crate) fn ask(
     code: &dyn InstalledCode,
     context: &RunContext,

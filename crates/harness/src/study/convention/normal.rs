@@ -50,7 +50,7 @@ impl NormalLaw {
         }
     }
 
-    /// The force in a row, whatever else it reports as normal force.
+    /// The normal force that the law gives in a row, however much of the reported force is lift.
     pub fn force(&self, row: &ContactRow) -> f64 {
         let (dt, speed) = (row.time_step, row.separation_speed);
         let overlap = row.overlap - self.overlap_lead.value * dt * speed;
@@ -86,7 +86,7 @@ fn slopes(rows: &[ContactRow]) -> [Measured; 2] {
     fit(&terms)
 }
 
-/// The part of a pulling normal force that is exerted: f_n/(k_n δ − η_n v_n) in the first row of a fast
+/// The fraction of a pulling normal force that is exerted: f_n/(k_n δ − η_n v_n) in the first row of a fast
 /// separation.
 pub fn pull(rows: &[ContactRow], law: &NormalLaw) -> Measured {
     let Some(row) = rows.first() else {

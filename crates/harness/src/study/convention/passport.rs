@@ -57,12 +57,12 @@ pub struct ArmEffects {
     pub changes: [Option<f64>; 4],
     /// The limit with all arms of the code, in m g; absent where one is not known.
     pub force: Option<f64>,
-    /// What the uncertainties of the measured arms leave open of it, in m g.
+    /// Uncertainty of that limit from the uncertainties of the measured arms, in m g.
     pub uncertainty: Option<f64>,
 }
 
 impl Passport<'_> {
-    /// What its contacts do otherwise in long steps than in short ones.
+    /// What its contacts do differently in long time steps.
     pub fn time_step_effects(&self) -> Vec<String> {
         let findings = self.findings.findings.iter();
         findings.filter_map(Finding::time_step_effect).collect()
@@ -79,7 +79,8 @@ impl Passport<'_> {
     }
 }
 
-/// What of `findings` is no agreement: properties that are not as declared, and keys that are left out and not known.
+/// What does not agree in `findings`: properties that are not as declared, keys that are left out and not known, and
+/// undeclared properties that could not be measured, with the reason.
 pub fn reservations(findings: &Findings) -> Vec<String> {
     let unknown = findings.settled.unknown.iter();
     let unknown = unknown.map(|own| {
@@ -94,7 +95,7 @@ pub fn reservations(findings: &Findings) -> Vec<String> {
     contradicting.chain(unknown).chain(unseen).collect()
 }
 
-/// The passport of `code`, of which the probe has shown `findings`.
+/// The passport of `code` from the `findings` of its probe.
 pub fn passport<'a>(code: &Code, findings: &'a Findings) -> Passport<'a> {
     let measured = &findings.measured;
     let others = Code::of_power(code.law().power)
@@ -137,7 +138,7 @@ fn turns(settled: &Settled) -> Option<bool> {
         .then(|| settled.convention.history_update.turns())
 }
 
-/// Whether the laws of two codes have the same limit: they are the same but for their damping.
+/// Whether two codes have the same limit: their laws differ in their damping at most.
 fn has_same_limit(code: &Code, other: &Code) -> bool {
     let [own, theirs] = [code, other].map(|code| Law {
         damping: DampingGrowth::default(),
@@ -146,7 +147,7 @@ fn has_same_limit(code: &Code, other: &Code) -> bool {
     own == theirs
 }
 
-/// Whether `measured` is the convention of the `other` code in all `keys`.
+/// Whether `measured` agrees with the convention of the `other` code in all `keys`, within its uncertainty.
 fn is_same(measured: &Settled, other: &Settled, keys: fn(ConventionKey) -> bool) -> bool {
     let mut keys = ConventionKey::ALL.into_iter().filter(|key| keys(*key));
     keys.all(|key| {

@@ -15,7 +15,7 @@ use super::tangential::TangentialLaw;
 use crate::model::{ContactConvention, ContactTest};
 use crate::series::Motion;
 
-/// Spin of the gentle motion from which those to the slip threshold are scaled.
+/// Spin of the gentle motion, from which the spins of the motions to the slip threshold are scaled.
 const GENTLE_SPIN: f64 = 1e-4;
 
 /// Shares of the damping in the Coulomb operand that are tried.
@@ -97,7 +97,7 @@ impl Plan {
         }
     }
 
-    /// The normal law in motions with two time steps.
+    /// Fits the normal law to motions with two time steps.
     fn read_normal(
         &self,
         coarse: &[Vec<ContactRow>],
@@ -114,9 +114,9 @@ impl Plan {
         }
     }
 
-    /// The normal law beside a spring that has a part along the normal, the rows of all motions without that part, and those
-    /// from which the law was read. As long as a contact sticks the part follows from the spring, and where it slides from the
-    /// normal law.
+    /// Returns the normal law beside a spring with a component along the normal, the rows of all motions without that
+    /// component, and the rows from which the law was fitted. As long as a contact sticks, the component follows from
+    /// the spring; in the motion that slides, it follows from the normal law.
     fn without_lift(
         &self,
         tangential: &TangentialLaw,
@@ -151,16 +151,16 @@ fn rounded(spin: f64) -> f64 {
     format!("{spin:.10e}").parse().unwrap_or(spin)
 }
 
-/// The normal law of one kind, in the form in which it is asked for.
+/// The normal law of one kind, in the form that the declaration asks for.
 enum Normal {
-    /// Linear, with any other as a deviation.
+    /// Linear; any other law shows as a deviation.
     Linear(NormalLaw),
     /// Any power of the overlap.
     Power(NormalPower),
 }
 
 impl Normal {
-    /// The force in a row, whatever else it reports as normal force.
+    /// The normal force that the law gives in a row, however much of the reported force is lift.
     fn force(&self, row: &ContactRow) -> f64 {
         match self {
             Self::Linear(law) => law.force(row),
@@ -168,7 +168,7 @@ impl Normal {
         }
     }
 
-    /// What the law leaves of the normal forces, squared.
+    /// Sum of the squared deviations of the normal forces from the law.
     fn left(&self, rows: &[ContactRow]) -> f64 {
         let off = rows.iter().map(|row| row.normal_force - self.force(row));
         off.map(|off| off * off).sum()
@@ -271,7 +271,7 @@ impl Laws {
         }
     }
 
-    /// Friction and reported force of the top wall, which is frictionless and reports the force that it exerts.
+    /// Friction and reported force of the top wall, which should be frictionless and report the force that it exerts.
     fn wall_properties(&self) -> [Property; 2] {
         let rows = self.rows[STICKING].iter().flatten();
         let against_normal = |value: fn(&ContactRow) -> f64| {

@@ -10,7 +10,7 @@ const POWERS: [f64; 5] = [1.0, 1.25, 1.5, 1.75, 2.0];
 /// Growths of the damping from which it begins, in units of that of the stiffness p − 1: constant damping, constant
 /// damping ratio, viscoelastic damping.
 const DAMPINGS: [f64; 3] = [0.0, 0.5, 1.0];
-/// Step over which slopes are taken, and steps of Gauss–Newton, of which each gains at least two digits.
+/// Step over which slopes are taken, and rounds of Gauss–Newton, each of which gains at least two digits.
 const STEP: f64 = 1e-4;
 const ROUNDS: usize = 8;
 /// K and η_n.
@@ -56,13 +56,13 @@ impl NormalPower {
         }
     }
 
-    /// The force in a row, whatever else it reports as normal force.
+    /// The normal force that the law gives in a row, however much of the reported force is lift.
     pub fn force(&self, row: &ContactRow) -> f64 {
         let parts = parts(row, self.mass, self.at);
         self.stiffness.value * parts[0] + self.damping.value * parts[1]
     }
 
-    /// Growth of the stiffness dN/dδ, as the best fit has it.
+    /// Growth of the stiffness dN/dδ in the best fit.
     pub fn stiffening(&self) -> Growth {
         Growth {
             exponent: self.at[0] - 1.0,
@@ -70,7 +70,7 @@ impl NormalPower {
         }
     }
 
-    /// The part of a pulling normal force that is exerted, in the first row of a fast separation.
+    /// The fraction of a pulling normal force that is exerted, in the first row of a fast separation.
     pub fn pull(&self, rows: &[ContactRow]) -> Measured {
         let Some(row) = rows.first() else {
             return Measured::UNKNOWN;
@@ -90,7 +90,8 @@ impl NormalPower {
     }
 }
 
-/// The exponents from which the search begins: those of the table that fit best, of a code that is timed as usual.
+/// Start of the search: the exponents of the table that fit best, and the lead and lag of a code that is timed as
+/// usual.
 fn start(with: &impl Fn([f64; 4]) -> Rows) -> [f64; 4] {
     let left = |numbers: &[f64; 4]| {
         deviations(&with(*numbers), COEFFICIENTS).map_or(f64::INFINITY, |(mean, _)| mean)
@@ -110,7 +111,7 @@ fn terms(rows: &[&ContactRow], mass: f64, numbers: [f64; 4]) -> Rows {
     terms.collect()
 }
 
-/// What K and η_n are multiplied with in a row, at p, s, o and λ.
+/// The factors of K and η_n in a row, at p, s, o and λ.
 fn parts(row: &ContactRow, mass: f64, [p, s, lead, lag]: [f64; 4]) -> [f64; COEFFICIENTS] {
     let earlier = (0.5 - lag) * row.time_step;
     let speed = row.separation_speed + earlier * (row.normal_force + row.lift) / mass;

@@ -13,12 +13,11 @@ use crate::series::Motion;
 
 const CONTACT_KINDS: [ContactKind; 3] = [ContactKind::Pair, ContactKind::Floor, ContactKind::Wall];
 
-/// How often micro-tests are carried out: the speed at which a contact reaches the slip threshold has to be measured
-/// first.
+/// Number of rounds of micro-tests: the speed at which a contact reaches the slip threshold must be measured first.
 pub const ROUNDS: usize = 2;
 
-/// Measures every property of the contacts of a code, beside what is `declared` of it. `run` carries out micro-tests; it
-/// is called `ROUNDS` times.
+/// Measures every property of the contacts of a code, and pairs it with what is `declared` of it. `run` carries out
+/// micro-tests; it is called `ROUNDS` times.
 ///
 /// # Errors
 /// Those of `run`.
@@ -71,7 +70,7 @@ pub fn probe<E>(
         properties.extend(laws.properties(own, &clock));
     }
     properties.extend(floor_ratio.into_iter().chain(cycles));
-    // In space a law is taken as declared: where it is another one, everything there would follow from that.
+    // The tests in space take the law as declared. If it is another one, all deviations there would follow from that.
     let in_space = in_space.into_iter().filter(|own| {
         let kind = CONTACT_KINDS
             .iter()

@@ -19,22 +19,22 @@ pub const OPERANDS: [(CoulombOperand, f64); 2] = [
     (CoulombOperand::SpringAndDamping, 1.0),
     (CoulombOperand::Spring, 0.0),
 ];
-/// The same: the memory of a spring that has slid.
+/// The same for the memory of a spring that has slid.
 pub const SLIDING_SPRINGS: [(SlidingSpring, f64); 2] = [
     (SlidingSpring::Frozen, 1.0),
     (SlidingSpring::FollowsLimit, 0.0),
 ];
-/// The same: the change of a spring's length in units of 1 − cos dψ, of those that turn with their contacts. Where nothing
-/// turns the spring its part along the tangent changes as that of a projected one, beside [`LEFT_BEHIND`].
+/// The same for springs that turn with their contacts: the change of their length in units of 1 − cos dψ. If nothing
+/// turns a spring, its tangential component changes as that of a projected one, beside [`LEFT_BEHIND`].
 pub const HISTORY_UPDATES: [(HistoryUpdate, f64); 3] = [
     (HistoryUpdate::Rotated, 0.0),
     (HistoryUpdate::Projected, -1.0),
     (HistoryUpdate::Linearised, 1.0),
 ];
-/// Name of the share of a spring along the normal that is kept when the contact turns, without the kind of contact: 1 where
-/// nothing turns it, and not told of springs that turn.
+/// Name, without the kind of contact, of the share of its normal component that a spring keeps when the contact
+/// turns: 1 if nothing turns the spring; not reported for springs that turn.
 pub const LEFT_BEHIND: &str = "spring_left_behind";
-/// The same: the part of a pulling force that is exerted.
+/// Alternatives for the fraction of a pulling force that is exerted, each with the value that shows it.
 pub const TENSILE_FORCES: [(TensileForce, f64); 2] = [
     (TensileForce::MayPull, 1.0),
     (TensileForce::NeverPulls, 0.0),
@@ -74,8 +74,8 @@ pub fn normal_properties(
     at(kind, rows)
 }
 
-/// Properties of a normal force of any power at `kind`. Damping that grows otherwise than any manifest can
-/// declare is measured alone: no limit depends on it.
+/// Properties of a normal force of any power at `kind`. Damping whose growth no manifest can declare is measured
+/// without a declared value: no limit depends on it.
 pub fn power_properties(
     kind: ContactKind,
     law: &NormalPower,
@@ -94,7 +94,7 @@ pub fn power_properties(
     };
     let damping = damping.rows(kind);
     let exponent = Property::at(kind, FORCE_EXPONENT, law.exponent, power);
-    // That of the top wall, which may be a body of another kind than the floor, is in no limit.
+    // No limit depends on the stiffness of the top wall, which may be a body of another kind than the floor.
     let stiffness = declared.normal_stiffness;
     let stiffness = Property {
         declared: (kind != ContactKind::Wall).then_some(stiffness),
@@ -128,8 +128,8 @@ struct GrowingDamping {
 }
 
 impl GrowingDamping {
-    /// Coefficient and exponent, beside the declared ones unless no manifest can declare such a growth, or such a body: the
-    /// top wall may be of another kind than the floor.
+    /// Coefficient and exponent, beside the declared ones unless no manifest can declare such a growth or such a
+    /// body: the top wall may be of another kind than the floor.
     fn rows(&self, kind: ContactKind) -> [Property; 2] {
         let (coefficient, growth, stiffness_exponent) = self.declared;
         let open = self.exponent.uncertainty + self.stiffness_exponent.uncertainty;
@@ -261,7 +261,7 @@ pub fn growing_properties(
         true => damping.clone(),
         false => own,
     });
-    // A stiffness that is the same at every overlap leaves displacement and force no difference.
+    // If the stiffness is the same at every overlap, remembering a displacement or a force makes no difference.
     let memory = memory.into_iter().filter(|(_, measured, _)| {
         measured.value.is_finite() || !shape.stiffness_exponent.value.is_finite()
     });

@@ -55,8 +55,8 @@ pub fn fit_rows(rows: &[(Vec<f64>, f64)], columns: usize) -> Vec<Measured> {
     solve(rows, columns).unwrap_or_else(|| vec![Measured::UNKNOWN; columns])
 }
 
-/// Mean square of what such a fit leaves of the targets, by freedom, and the number of freedoms; `None` where the
-/// coefficients are not resolved.
+/// Mean squared deviation per degree of freedom that such a fit leaves, and the number of degrees of freedom; `None`
+/// if the coefficients are not resolved.
 pub fn deviations(rows: &[(Vec<f64>, f64)], columns: usize) -> Option<(f64, f64)> {
     let coefficients = solve(rows, columns)?;
     let left = rows.iter().map(|(terms, target)| {

@@ -1,4 +1,4 @@
-//! What a manifest leaves out of its convention, settled by the probe.
+//! Settles by a probe what a manifest leaves out of its convention.
 
 use super::measured::{Probed, probe_all, read_probe};
 use super::micro_tests::ask;
@@ -6,11 +6,11 @@ use crate::code::{Code, InstalledCode, Interrupt, RunContext, SettledCode};
 use crate::runs::{Progress, SelectedCode, Settings};
 use std::path::Path;
 
-/// A code that is settled, and what its probe has shown; `None` for one whose manifest declares everything.
+/// A settled code, and the result of its probe; `None` if its manifest declares everything.
 pub type Settling = (SettledCode, Option<Probed>);
 
-/// The conventions of `codes`, in their order: what their manifests leave out is measured by their probes, from the store,
-/// live, or recorded.
+/// Settles the conventions of `codes`, in their order. What a manifest leaves out is measured by a probe, from the
+/// store, live, or recorded.
 pub fn settle(
     codes: &[SelectedCode],
     settings: &Settings,
@@ -32,7 +32,7 @@ pub fn settle(
     settled.collect()
 }
 
-/// The convention of `code` by its probe, wherever the answers come from.
+/// `code` under the convention that its probe shows, wherever the answers come from.
 pub fn settled_by(code: &Code, probed: &Probed) -> SettledCode {
     match probed {
         Ok(findings) => SettledCode::new(code.clone(), findings.settled.clone()),
@@ -40,7 +40,8 @@ pub fn settled_by(code: &Code, probed: &Probed) -> SettledCode {
     }
 }
 
-/// The convention of a code whose `results` were made elsewhere; `None` if they do not answer all micro-tests yet.
+/// The code under the convention that `results`, made elsewhere, show; `None` if they do not answer all micro-tests
+/// yet.
 pub(crate) fn settled_by_files(results: &dyn InstalledCode) -> Option<SettledCode> {
     let (code, nobody) = (results.name(), Interrupt::new());
     let record = ask(results, &RunContext::new(Path::new("."), &nobody)).ok()?;

@@ -12,7 +12,7 @@ const FINEST: f64 = 1e-9;
 
 const NOT_SHOWN: &str = "its motions do not show it";
 
-/// The convention that `properties` show, where `declaration` leaves something out.
+/// The declared convention, with what `properties` show of the keys that `declaration` leaves out.
 pub(super) fn settled(declaration: &Declaration, properties: &[Property]) -> Settled {
     let mut settled = declaration.unsettled("");
     settled.unknown.clear();
@@ -120,7 +120,7 @@ fn history_update(properties: &[&Property]) -> Result<HistoryUpdate, String> {
     }
 }
 
-/// Whether the spring is one that nothing turns. Its share that is left behind is told only where that is seen or declared.
+/// Whether nothing turns the spring. The share that is left behind is reported only where it is seen or declared.
 fn is_left_behind(properties: &[&Property]) -> Result<bool, String> {
     let shares: Vec<&Property> = properties.iter().copied().filter(is_share).collect();
     match shares.is_empty() {
@@ -159,7 +159,7 @@ fn alternative<T: Copy>(alternatives: &[(T, f64)], properties: &[&Property]) -> 
     })
 }
 
-/// Those of `properties` that could be measured, if there are any.
+/// The `properties` that could be measured; an error if there are none.
 fn known<'a>(properties: &[&'a Property]) -> Result<Vec<&'a Property>, String> {
     let is_known = |own: &&&Property| {
         let Measured { value, uncertainty } = own.measured;
@@ -192,7 +192,7 @@ mod tests {
         }
     }
 
-    /// What is settled of one key, and why it is not.
+    /// The convention after one key is settled, with the reason if it is not.
     fn settled_by(key: ConventionKey, properties: &[Property]) -> Settled {
         let declaration = Declaration {
             convention: ContactConvention::TURNING,
@@ -268,7 +268,7 @@ mod tests {
         let dumb = |name: &str| property(name, f64::NAN, f64::INFINITY);
         let why = reason(ConventionKey::PairTorqueArm, &[dumb("pair_torque_arm")]);
         assert_eq!(why, NOT_SHOWN);
-        // The arm of the damping alone is not that of the spring.
+        // The arm of the damping alone does not show that of the spring.
         let damping = property("pair_damping_arm", -0.5, 1e-9);
         let why = reason(
             ConventionKey::PairKinematicArm,
@@ -277,7 +277,7 @@ mod tests {
         assert_eq!(why, NOT_SHOWN);
     }
 
-    /// By which rule a spring turns leaves the limit alone; whether it turns does not.
+    /// The limit depends on whether a spring turns, but not on the rule by which it turns.
     #[test]
     fn a_limit_depends_on_whether_a_spring_turns_alone() {
         let transport = |value| property("pair_history_update", value, 1e-8);

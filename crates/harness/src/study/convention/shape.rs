@@ -12,7 +12,7 @@ pub struct Growth {
 }
 
 impl Growth {
-    /// That of a constant.
+    /// The growth of a constant.
     pub const NONE: Self = Self {
         exponent: 0.0,
         stiffening: 0.0,
@@ -51,7 +51,7 @@ impl Memory {
         Self::new(1.0, 1.0),
     ];
 
-    /// The memory of a force share and a rescaling.
+    /// The memory with this force share and this rescaling.
     pub const fn new(force_share: f64, rescaling: f64) -> Self {
         Self {
             force_share,

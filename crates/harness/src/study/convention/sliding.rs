@@ -9,7 +9,7 @@ use super::tangential::TangentialLaw;
 /// row to row.
 const SAME_RATIO: f64 = 1e-7;
 
-/// Fewest rows with the same ratio that show a contact which slides: friction and damping follow from them.
+/// Fewest rows with the same ratio that count as sliding: friction and damping follow from them.
 const FEWEST: usize = 3;
 
 /// Relative distance below and above the limit at which the contact is observed to stick or slide.
@@ -84,8 +84,8 @@ fn memory(
     })
 }
 
-/// Length of the spring after a stretch of sliding between two rows that stick, before it grows again: as measured, as it
-/// would be if it followed the limit, and as it was before, turned on with the contact.
+/// Length of the spring after a stretch of sliding between two rows that stick, before it grows again: as measured,
+/// as it would be if it followed the limit, and as it was before the stretch, turned along with the contact.
 fn spring_lengths(stretch: &[ContactRow], law: &TangentialLaw, operand_damping: f64) -> [f64; 3] {
     let [before, last, next] = [0, stretch.len() - 2, stretch.len() - 1].map(|at| &stretch[at]);
     let length = |row: &ContactRow, along: f64| [along, row.lift].map(|part| law.length(row, part));

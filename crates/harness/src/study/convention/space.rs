@@ -2,15 +2,15 @@
 //! about the normal, whether every component of a spin and of a torque counts, and whether two contacts of a sphere keep
 //! their springs apart.
 //!
-//! Forces are split into those of the pair, felt by sphere 2 alone, and those of the floor. From each force the spring
-//! behind it follows, m, in units of a length or of a force, as the law remembers it; from one step to the next it
-//! changes by what the surfaces move, and by its transport from the old normal n₀ to the new one n₁:
+//! Forces are split into those of the pair, felt by sphere 2 alone, and those of the floor. The spring m behind a
+//! force follows from it, in units of a length or of a force, as the law remembers it. From one step to the next m
+//! changes by the motion of the surfaces, and by its transport from the old normal n₀ to the new one n₁:
 //!
 //! m' = m − n₁ (n₁·m) + a L + b Q + c T + d N + …, with L the change that gives m its length back, Q = (n₁ − n₀)(n₁·m) +
 //! n₁ (n₀·m) the difference of the vector product m − m × (n₀ × n₁), T = (dt/2) (n₀·Σω) n₀ × m a turn with half the sum of the
 //! spins, and N = n₁ (n₁·m) what a spring that nothing turns keeps along the normal. Projection has a = b = c = d = 0. While
 //! a contact sticks, regressions give a, b, c and d and the weight of each component of the spins in the motion of the
-//! surfaces; d is looked for where it is declared, or found.
+//! surfaces; d counts only where it is declared or seen.
 
 use super::experiments::ContactKind;
 use super::finding::{Property, TOLERANCE};
@@ -34,17 +34,17 @@ const STEPS: u64 = 24;
 /// Least change of a force, in units of the largest, that a step is read from.
 const LEAST: f64 = 1e-6;
 
-/// Part of the limit of the tangential force below which a contact sticks.
+/// Fraction of Coulomb's limit below which a contact certainly sticks.
 const SURELY_STICKS: f64 = 0.5;
-/// Part of the elastic normal force above which no rule about pulling forces matters.
+/// Fraction of the elastic normal force above which no rule about pulling forces matters.
 const SURELY_PRESSED: f64 = 0.3;
 
-/// Ways in which a spring may follow its contact beside projection.
+/// Number of ways in which a spring may follow its contact beside projection.
 const TRANSPORTS: usize = 4;
-/// Those, and the spins about three axes.
+/// Number of terms: those transports, and the spins about three axes.
 const TERMS: usize = TRANSPORTS + 3;
 
-/// Most fits of what springs change. Each leaves a part of the error of a wrong spin.
+/// Largest number of fits of the changes of springs. Each leaves only a part of the error of a wrong weight.
 const MOST_FITS: usize = 40;
 
 /// A state of motion of a body: place, velocity, spin.
@@ -78,10 +78,10 @@ const MOTIONS: [[State; 2]; 3] = [
 /// A sphere that touches nothing.
 const BESIDE: State = [[7.0, 3.0, 0.0], [0.0; 3], [0.0; 3]];
 
-/// The motion of two contacts at once.
+/// Index of the motion with two contacts at once.
 const AT_ONCE: usize = 2;
 
-/// Ways of looking at the same motion: turned by 1 rad about the vertical, mirrored, and with the spheres numbered otherwise.
+/// Ways of looking at the same motion: turned by 1 rad about the vertical, mirrored, and with the spheres renumbered.
 #[derive(Debug, Clone, Copy)]
 enum View {
     Turned,
@@ -96,7 +96,7 @@ const VIEWS: [(View, &str); 3] = [
 ];
 
 impl View {
-    /// A place, velocity or force as it is seen.
+    /// A place, velocity or force in this view.
     fn of_vector(self, [x, y, z]: Vector) -> Vector {
         match self {
             Self::Turned => {
@@ -108,7 +108,7 @@ impl View {
         }
     }
 
-    /// A spin or torque as it is seen.
+    /// A spin or torque in this view.
     fn of_rotation(self, rotation: Vector) -> Vector {
         match self {
             Self::Mirrored => {
@@ -127,7 +127,7 @@ impl View {
         }
     }
 
-    /// The micro-test in which the same motion is seen so.
+    /// The micro-test of the same motion in this view.
     fn of_test(self, convention: &ContactConvention) -> ContactTest {
         let bodies = self.of_bodies(MOTIONS[AT_ONCE]);
         let seen = bodies.map(|[at, velocity, spin]| {
@@ -140,7 +140,8 @@ impl View {
         test(convention, STICKS, &seen)
     }
 
-    /// How far the forces of `seen` are from those of the same motion, over the largest of them.
+    /// The largest deviation of the forces and torques of `seen` from those of `motion` in this view, over the
+    /// largest of them.
     fn deviation(self, motion: &Motion, seen: &Motion) -> Measured {
         let (mut apart, mut largest) = (0f64, 0f64);
         for (row, seen) in motion.rows().iter().zip(seen.rows()) {
@@ -156,14 +157,14 @@ impl View {
                 }
             }
         }
-        // Each step rounds a coordinate up to 4, here and there; forces are as stiff as 1.
+        // Each step rounds coordinates of up to 4, in either motion; stiffnesses are about 1.
         let rounding = STEPS as f64 * 4.0 * f64::EPSILON / largest;
         Measured::new(apart / largest, rounding)
     }
 }
 
-/// The micro-tests: every motion with friction at which nothing slides, and at which everything does; and the motion of two
-/// contacts at once, seen from elsewhere.
+/// The micro-tests: every motion with friction at which nothing slides, and at which everything does; and the motion
+/// with two contacts at once in every view.
 pub fn tests(convention: &ContactConvention) -> Vec<ContactTest> {
     let frictions = [STICKS, SLIDES].into_iter();
     let motions = frictions.flat_map(|friction| {
@@ -209,8 +210,8 @@ fn test(convention: &ContactConvention, friction: f64, bodies: &[State; 2]) -> C
     }
 }
 
-/// The properties that the outcomes of [`tests`] show beside those that are `declared`: how a motion looks from elsewhere, and,
-/// where the law that is needed to read them is declared, what the contacts do.
+/// The properties that the outcomes of [`tests`] show, beside the `declared` ones: how a motion looks in other views
+/// and, if the law that is needed to read them is declared, what the contacts do.
 pub fn properties(
     outcomes: &[(&ContactTest, &Motion)],
     velocity_lag: f64,
@@ -335,7 +336,8 @@ impl Body {
         }
     }
 
-    /// With the velocities of half a step before its position, of unit mass and the inertia that is asked for.
+    /// The sphere with the velocities of half a step before its position, for unit mass and the inertia that the test
+    /// asks for.
     fn half_step_earlier(self, test: &ContactTest, velocity_lag: f64) -> Self {
         let back = (velocity_lag - 0.5) * test.time_step;
         let inertia = test.convention.moment_of_inertia;
@@ -371,7 +373,7 @@ struct Read {
 }
 
 impl Read {
-    /// Velocity of the surfaces in the tangent plane, where the spins count with these weights.
+    /// Velocity of the surfaces in the tangent plane, with these weights of the spins.
     fn sliding(&self, weights: [f64; 3]) -> Vector {
         weighted(self.moved, weights, self.rolled)
     }
@@ -409,7 +411,7 @@ impl Law {
         }
     }
 
-    /// The rows as long as the bodies are pressed together, and damping has not taken most of that away.
+    /// The rows as long as the bodies are pressed together, and damping has not cancelled most of the elastic force.
     fn pressed<'a>(&'a self, rows: &'a [Row]) -> impl Iterator<Item = Read> + 'a {
         let read = rows.iter().map(|row| self.read(row));
         read.take_while(|read| {
@@ -418,13 +420,13 @@ impl Law {
         })
     }
 
-    /// The spring of a contact that sticks, as the law remembers it, where the surfaces move at this velocity.
+    /// The spring of a contact that sticks, as the law remembers it, if the surfaces move at this velocity.
     fn spring(&self, read: &Read, sliding: Vector) -> Vector {
         let elastic = combine(read.tangential, read.at.damping_tangential, sliding);
         self.remembered(elastic, &read.at)
     }
 
-    /// What damping of a velocity of the surfaces takes from that spring.
+    /// What damping at this velocity of the surfaces contributes to that spring.
     fn damped(&self, read: &Read, velocity: Vector) -> Vector {
         let damping = velocity.map(|part| part * read.at.damping_tangential);
         self.remembered(damping, &read.at)
@@ -468,7 +470,7 @@ impl Law {
         }
     }
 
-    /// The weights of transport, spin and torque while contacts stick, and those of the spins.
+    /// Returns the weights of transport, spin and torque while contacts stick, and the weights of the spins.
     fn of_sticking(&self, series: &[Vec<Row>]) -> (Vec<Property>, [f64; 3]) {
         let sticks = |read: &Read| {
             let size = dot(read.tangential, read.tangential).sqrt();
@@ -488,7 +490,7 @@ impl Law {
         let torques = ["torque_x", "torque_y", "torque_z"].into_iter();
         let torques = torques.zip(fit_known(&turning)).zip([1.0; 3]);
         let properties = own.chain(torques);
-        // A normal of the floor never turns, and nothing about it tells these.
+        // The normal of the floor never turns, so that some of these do not show there.
         let properties = properties.filter(|((_, found), _)| {
             found.uncertainty.is_finite() || self.kind == ContactKind::Pair
         });
@@ -498,8 +500,8 @@ impl Law {
         (properties.collect(), spins)
     }
 
-    /// What [`Self::fit_changes`] finds with the spins that fit best, those, and whether springs may be left behind by their
-    /// contacts: only where that is declared, or is seen, does it count.
+    /// Returns what [`Self::fit_changes`] finds with the weights of the spins that fit best, these weights, and
+    /// whether springs may be left behind by their contacts, which counts only if it is declared or seen.
     fn fit_springs(&self, series: &[Vec<Read>]) -> ([Measured; TERMS], [f64; 3], bool) {
         let fitted = |may_be_left| {
             let mut spins = [1.0; 3];
@@ -526,8 +528,9 @@ impl Law {
         }
     }
 
-    /// a, b, c, d and the weights of the spins, from what springs change in a step. The springs that are transported follow
-    /// from the `spins` as they were found before; that matters only where those are wrong, and less with every iteration.
+    /// a, b, c, d and the weights of the spins, from the changes of springs in a step. The springs that are
+    /// transported are computed with the weights `spins` found before; an error in these matters less with every
+    /// iteration.
     fn fit_changes(
         &self,
         series: &[Vec<Read>],
@@ -566,8 +569,8 @@ impl Law {
         fit_known(&changes)
     }
 
-    /// The direction of a force at its limit, while contacts slide: 1 along that of the rule that is declared, 0 across,
-    /// where the spins count with the weights that were found.
+    /// The direction of a force at its limit, while contacts slide: 1 along the direction of the declared rule, 0
+    /// across it. The spins count with the weights that were found.
     fn of_sliding(&self, series: &[Vec<Row>], spins: [f64; 3]) -> Vec<Property> {
         let mut terms: Vec<([f64; 2], f64)> = Vec::new();
         for rows in series {
@@ -577,7 +580,7 @@ impl Law {
                 let [before, now] = two else { continue };
                 let limit = now.row.friction * now.normal_force.abs();
                 let last = spring.unwrap_or_else(|| match self.convention.sliding_spring {
-                    // It slides from the first step on.
+                    // The contact slides from the first step on, so that its spring has stayed unstretched.
                     SlidingSpring::Frozen => [0.0; 3],
                     SlidingSpring::FollowsLimit => self.last_spring(before, spins),
                 });
@@ -655,7 +658,7 @@ fn transported(spring: Vector, before: &Read, now: &Read) -> (Vector, [Vector; T
     (projected, [lengthened, product, twisted, left])
 }
 
-/// Each component of the torque on a body beside −R n × f.
+/// Each component of the torque on a body, with that of −R n × f as its term.
 fn torques(read: &Read) -> [([f64; 3], f64); 3] {
     let expected = cross(read.row.normal, read.tangential).map(|part| -read.arms[1] * part);
     [0, 1, 2].map(|axis| {

@@ -1,5 +1,5 @@
-//! How stiffness and damping of a tangential spring grow with the overlap, and what it remembers, told from motions in
-//! which the overlap rises and falls.
+//! How stiffness and damping of a tangential spring grow with the overlap, and what it remembers, found from motions
+//! in which the overlap rises and falls.
 
 use super::beside::fit_beside;
 use super::contact_frame::ContactRow;
@@ -7,7 +7,7 @@ use super::linear_form::Form;
 use super::regression::Measured;
 use super::shape::{Growth, Memory};
 
-/// Step over which slopes are taken, and steps of Gauss–Newton.
+/// Step over which slopes are taken, and rounds of Gauss–Newton.
 const STEP: f64 = 1e-4;
 const ROUNDS: usize = 8;
 /// Growths of the damping from which the search begins, in units of that of the stiffness.
@@ -33,7 +33,7 @@ pub struct SpringShape {
 }
 
 impl SpringShape {
-    /// The form of the known ones that fits best, beside a normal stiffness with the growth `normal`.
+    /// The known form that fits best, beside a normal stiffness with the growth `normal`.
     pub fn start(normal: Growth, motions: &[&[ContactRow]], radius: f64) -> Form {
         let forms = Memory::KNOWN.iter().flat_map(|&memory| {
             DAMPINGS.map(|share| Form {
@@ -54,7 +54,7 @@ impl SpringShape {
         best.unwrap_or(Form::PLAIN)
     }
 
-    /// The shape that fits best, coefficients, and the form of both; the search begins at `form`.
+    /// The shape that fits best, its coefficients, and the form of both; the search begins at `form`.
     pub fn fit(form: Form, motions: &[&[ContactRow]], radius: f64) -> (Self, Vec<Measured>, Form) {
         let with = |numbers: [f64; 7]| shaped(form, numbers).terms(motions, radius);
         let found = fit_beside(numbers(form), STEP, ROUNDS, form.columns(motions), with);
@@ -79,8 +79,8 @@ impl SpringShape {
         (shape, found.coefficients, shaped(form, found.at))
     }
 
-    /// What the known numbers of the shape leave open of a force, relatively, at the overlaps of micro-tests: their
-    /// logarithms and those of their ratios are below 4.
+    /// Relative uncertainty of a force from that of the known numbers of the shape, at the overlaps of micro-tests:
+    /// the logarithms of these and of their ratios are below 4.
     pub fn uncertainty(&self) -> f64 {
         let numbers = [
             self.stiffness_exponent,

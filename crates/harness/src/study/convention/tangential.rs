@@ -40,17 +40,18 @@ pub struct TangentialLaw {
     pub damping_arm: Measured,
     /// Change of the spring's length in units of 1 − cos dψ, when the contact turns by dψ.
     pub transport: Measured,
-    /// Share of the spring along the normal that is kept when the contact turns, where it is seen ([`Form::left_behind`]).
+    /// Share of its normal component that the spring keeps when the contact turns, if it is seen
+    /// ([`Form::left_behind`]).
     pub left_behind: Option<Measured>,
-    /// Whether the normal force has the part along the normal of a spring that is left behind.
+    /// Whether the normal force contains the normal component of a spring that is left behind.
     exerts_lift: bool,
     /// The form of the best fit.
     form: Form,
 }
 
 impl TangentialLaw {
-    /// Fits several gentle motions and, for a pair, one in which the contact `turns`. In the `refined` ones the time step
-    /// is half as long; k_t is meant to be `stiffness`.
+    /// Fits several gentle motions and, for a pair, one in which the contact `turns`. The `refined` motions have half
+    /// the time step; `stiffness` is the declared k_t.
     pub fn read(
         gentle: &[Vec<ContactRow>],
         refined: &[Vec<ContactRow>],
@@ -89,9 +90,9 @@ impl TangentialLaw {
         })
     }
 
-    /// This law, or one of a spring of which a share is left behind, where that explains of the `motions` what no spring does
-    /// that follows its contact. The law of a form is `fitted`; any share is looked for in so many
-    /// `rounds`, and the whole of a spring in none.
+    /// Returns this law, or one with a spring of which a share is left behind, if that explains in the `motions` what
+    /// a spring that follows its contact cannot. `fitted` gives the law of a form. Any share is searched for in this
+    /// many `rounds`; with none, the spring is left behind wholly or not at all.
     fn or_left_behind(
         self,
         motions: &[&[ContactRow]],
@@ -133,7 +134,7 @@ impl TangentialLaw {
         }
     }
 
-    /// The same beside a normal force that is not linear, whose stiffness has the growth `normal`.
+    /// Like [`Self::read`], beside a normal force that is not linear and whose stiffness has the growth `normal`.
     pub fn read_growing(
         gentle: &[Vec<ContactRow>],
         refined: &[Vec<ContactRow>],
@@ -170,7 +171,7 @@ impl TangentialLaw {
         }
         let turning = turning.map(sticking).into_iter();
         let all: Vec<&[ContactRow]> = motions.iter().copied().chain(turning).collect();
-        // Growth and memory would take up what a part of a spring leaves behind: it is all or nothing.
+        // Growth and memory would absorb a share that is left behind, so that it is all or nothing.
         fitted(law.form, &all).or_left_behind(&all, 0, |form| fitted(form, &all))
     }
 
@@ -192,7 +193,7 @@ impl TangentialLaw {
         }
     }
 
-    /// Fits a law of the given form to `motions`; `exponent` takes the place of that in the form.
+    /// Fits a law of the given form to `motions`; `exponent` replaces that of the form.
     fn fitted(
         motions: &[&[ContactRow]],
         form: Form,
@@ -240,7 +241,7 @@ impl TangentialLaw {
         self
     }
 
-    /// The exponent with which k_t grows with the overlap, if it does and is not as it is meant.
+    /// The exponent with which k_t grows with the overlap, if it does and k_t is not the declared `stiffness`.
     fn growth(&self, motions: &[&[ContactRow]], form: Form, stiffness: f64) -> Option<Measured> {
         let Measured { value, uncertainty } = self.stiffness;
         if (value - stiffness).abs().max(uncertainty) <= TOLERANCE * stiffness {
@@ -283,17 +284,17 @@ impl TangentialLaw {
         row.tangential_force + self.damping_at(row) * self.surface_speed(row)
     }
 
-    /// What a spring of the force `force` remembers in a row: the length that a constant stiffness has.
+    /// What a spring with this `force` remembers in a row; for a constant stiffness, its length.
     pub fn length(&self, row: &ContactRow, force: f64) -> f64 {
         -force / (self.stiffness.value * self.form.exerted(row))
     }
 
-    /// The growth of that in the step that leads to a row.
+    /// The growth of that length in the step that leads to a row.
     pub fn growth_of_length(&self, row: &ContactRow) -> f64 {
         self.spring_growth(row) * self.form.remembered(row)
     }
 
-    /// Parts of that along tangent and normal, after the contact has turned between two rows.
+    /// Tangential and normal components of that length, after the contact has turned between two rows.
     pub fn turned(&self, length: [f64; 2], before: &ContactRow, row: &ContactRow) -> [f64; 2] {
         self.form.turned(length, before, row)
     }
@@ -303,7 +304,7 @@ impl TangentialLaw {
         self.left_behind.is_some() && self.exerts_lift
     }
 
-    /// This law of a contact whose normal force has nothing of the spring.
+    /// This law with a normal force that contains nothing of the spring.
     pub fn without_lift(self) -> Self {
         Self {
             exerts_lift: false,
@@ -319,7 +320,7 @@ impl TangentialLaw {
         }
     }
 
-    /// `rows` of a contact that sticks with what its spring exerts along the normal as their lift.
+    /// `rows` of a contact that sticks, with the normal component of the force of its spring as their lift.
     pub fn with_lift(&self, rows: &[ContactRow]) -> Vec<ContactRow> {
         if !self.lifts() {
             return rows.to_vec();
@@ -342,7 +343,7 @@ impl TangentialLaw {
         lifted.collect()
     }
 
-    /// The part of such a length that its coefficients leave open.
+    /// Relative uncertainty of such a length from that of its coefficients.
     pub fn open_share(&self) -> f64 {
         self.stiffness.uncertainty / self.stiffness.value
             + self.damping.uncertainty / self.damping.value
@@ -386,8 +387,8 @@ fn sticking_rows(motions: &[Vec<ContactRow>]) -> Vec<&[ContactRow]> {
     motions.iter().map(|rows| sticking(rows)).collect()
 }
 
-/// The `refined` motions, and the `gentle` ones as long as nothing turns by more in a step than in those: codes may
-/// compute large turns otherwise than small ones, and the arm is that of small ones.
+/// The `gentle` motions as long as nothing turns by more in a step than in the `refined` ones, followed by these.
+/// Codes may compute large turns differently from small ones, and the arm is that of small ones.
 fn small_turns<'a>(
     gentle: &[&'a [ContactRow]],
     refined: &[&'a [ContactRow]],
@@ -401,8 +402,8 @@ fn small_turns<'a>(
     small.chain(refined.iter().copied()).collect()
 }
 
-/// Whether a term of third order in the turn of a step explains what a law without leaves of the forces, in motions with
-/// two time steps: it fades with the square of the step, other than a term of third order in the spin.
+/// Whether a term of third order in the turn of a step explains the deviations that a law without it leaves, in
+/// motions with two time steps. It fades with the square of the step, unlike a term of third order in the spin.
 fn has_third_order(motions: &[&[ContactRow]], radius: f64) -> bool {
     let left = |third_order| {
         let form = Form {

@@ -1,15 +1,16 @@
-//! How long studies will take here: their open runs, and what a step and a start of each code cost on this machine.
+//! How long studies will take on this machine, from their open runs and what a step and a start of each code cost
+//! here.
 
 use super::stack::short_and_long;
 use super::target::{BenchError, BenchTarget, InstalledTarget};
 use crate::code::{Code, InstalledCode, RunContext};
 use crate::runs::{CodeOutlook, Kind, Outlook, PlannedCall, SelectedCode, Settings, probe_address};
 
-/// How long a measurement of the cost of a step is to take, in seconds, if the manifest is right.
+/// Intended duration of a measurement of the cost of a step, in seconds; it is met if the manifest is right.
 const MEASURED_SECONDS: f64 = 1.0;
 /// Fewest and most steps of a measurement.
 const STEPS: [f64; 2] = [8e3, 4e5];
-/// Steps of each native run in a measurement, which has many of them.
+/// Steps of each of the many native runs of a measurement.
 const NATIVE_STEPS: f64 = 1e5;
 
 /// Where the cost of a step comes from.
@@ -49,19 +50,21 @@ pub struct CodeDuration {
     pub runs: CodeOutlook,
     /// Whether it is installed here.
     pub is_installed: bool,
-    /// Seconds of its micro-tests if they are still to be carried out, as long as they took where they were recorded;
-    /// absent where they are there or nobody knows.
+    /// Seconds that its open micro-tests took where they were recorded; absent if their results are in the store, or
+    /// if they were never recorded.
     pub probe: Option<f64>,
     /// What a step costs; absent where there is nothing to do.
     pub cost: Option<StepCost>,
-    /// Seconds of one core for all of it.
+    /// Seconds of one core for runs and micro-tests together.
     pub core_seconds: f64,
 }
 
-/// How long what is ahead in `outlook` will take: of each code, and altogether in seconds with the threads of `settings`.
+/// Forecasts how long the open runs in `outlook` will take: of each code, and in total with the threads of
+/// `settings`, in seconds.
 ///
 /// # Errors
-/// If a measurement cannot write its files, or is interrupted; a code that fails is taken by its manifest, and `tell` says so.
+/// If a measurement cannot write its files, or is interrupted. If a run of a code fails, `tell` gets the error, and
+/// the cost comes from the manifest.
 pub fn durations(
     outlook: &Outlook,
     codes: &[SelectedCode],
@@ -91,7 +94,7 @@ pub fn durations(
     let seconds = outlook.seconds(settings.threads, |call| {
         cost_of(&call.code).map_or(0.0, |cost| cost.seconds(call))
     });
-    // Micro-tests come first, one code a thread.
+    // Micro-tests come first, each code on one thread.
     let probes: Vec<f64> = rows.iter().filter_map(|row| row.probe).collect();
     let longest = probes.iter().copied().fold(0.0, f64::max);
     let probes = (probes.iter().sum::<f64>() / settings.threads as f64).max(longest);
@@ -99,7 +102,7 @@ pub fn durations(
 }
 
 impl StepCost {
-    /// The duration of a `call`, in seconds.
+    /// Returns the duration of a `call`, in seconds.
     fn seconds(&self, call: &PlannedCall) -> f64 {
         self.start + self.step * call.steps.iter().sum::<u64>() as f64
     }
@@ -113,7 +116,7 @@ impl StepCost {
     }
 }
 
-/// How long the micro-tests of `code` took where they were recorded, unless their results are in the store.
+/// Returns how long the micro-tests of `code` took where they were recorded, unless their results are in the store.
 fn probe_seconds(code: &dyn InstalledCode, settings: &Settings) -> Option<f64> {
     let address = probe_address(code);
     if !settings.fresh && settings.store.holds(Kind::Probe, &address) {
@@ -123,7 +126,7 @@ fn probe_seconds(code: &dyn InstalledCode, settings: &Settings) -> Option<f64> {
     Some(recorded.provenance.seconds)
 }
 
-/// The cost of a step of `code` by a measurement of a second or two; that of the manifest where it fails.
+/// Measures the cost of a step of `code` in a second or two; takes that of the manifest where a run fails.
 fn step_cost(
     code: &Code,
     bodies: u8,
@@ -142,13 +145,13 @@ fn step_cost(
     }
 }
 
-/// The same; `None` where the steps do not take long enough to be told from the start.
+/// Measures the cost of a step of `code`; `None` where steps are too fast to be told from the start.
 fn measured(code: &Code, bodies: u8, context: &RunContext) -> Result<Option<StepCost>, BenchError> {
     let target = match code.is_native() {
         true => BenchTarget::NativeLanes,
         false => BenchTarget::External(code.clone()),
     };
-    // What its manifest leaves out does not change the duration of a step.
+    // Keys that the manifest leaves out do not change the duration of a step.
     let target = InstalledTarget::find(target, &code.unmeasured(""))?;
     let [fewest, most] = STEPS;
     let steps = match code.is_native() {

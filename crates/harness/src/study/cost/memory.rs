@@ -17,7 +17,7 @@ pub(super) enum Processes {
     Children,
 }
 
-/// Does `work`, and samples the memory of `processes` every few milliseconds meanwhile. The peak is in bytes; `None`
+/// Runs `work`, and samples the memory of `processes` every few milliseconds meanwhile. The peak is in bytes; `None`
 /// where there is no `/proc`, or no sample found a process.
 pub(super) fn with_peak<T>(processes: Processes, work: impl FnOnce() -> T) -> (T, Option<u64>) {
     let done = AtomicBool::new(false);
@@ -47,7 +47,7 @@ fn sample(processes: Processes) -> Option<u64> {
     }
 }
 
-/// A size in the `status` of the process at `directory`, in bytes.
+/// Returns a size in the `status` of the process at `directory`, in bytes.
 fn status_bytes(directory: &Path, key: &str) -> Option<u64> {
     let status = system_text(directory.join("status"))?;
     let line = status.lines().find_map(|line| line.strip_prefix(key))?;
@@ -55,7 +55,7 @@ fn status_bytes(directory: &Path, key: &str) -> Option<u64> {
     Some(1024 * kibibytes)
 }
 
-/// The descendants of the process at `directory`.
+/// Returns the descendants of the process at `directory`.
 fn descendants(directory: &Path) -> Vec<PathBuf> {
     let threads = fs::read_dir(directory.join("task")).into_iter().flatten();
     let lists = threads.flatten();
@@ -80,7 +80,7 @@ mod tests {
         const BYTES: usize = 64 << 20;
         let ((), peak) = with_peak(Processes::Own, || {
             let held = vec![1_u8; BYTES];
-            // Even on a busy machine one of so many samples comes in time.
+            // Even on a busy machine one of so many samples is taken in time.
             std::thread::sleep(200 * SAMPLING_INTERVAL);
             drop(std::hint::black_box(held));
         });

@@ -9,7 +9,8 @@ use crate::series::PyramidRun;
 /// Stiffness at which gravity hardly deforms the lowest of a hundred rows.
 const STIFFNESS: f64 = 1e5;
 
-/// Steps a row in which gravity rises: all rows carry then, though the largest pyramid still sways a little.
+/// Steps per row in which gravity rises. All rows carry load by then, though the largest pyramid still sways a
+/// little.
 const RAMP_STEPS_A_ROW: u64 = 50;
 
 /// The pyramids, the codes and the amount of work that are timed.
@@ -59,9 +60,9 @@ impl Default for PyramidBench {
 }
 
 impl PyramidBench {
-    /// Measures, in directories of their own in that of `context`. Only the last steps of a run are timed, by
-    /// the code itself (the loop time in its log): start-up, neighbour lists of the
-    /// beginning and the rise of gravity do not count.
+    /// Measures every pyramid with every code, each in a directory of its own in that of `context`. The code itself
+    /// times the last steps of a run (the loop time in its log), so that start-up, neighbour lists of the beginning
+    /// and the rise of gravity do not count.
     ///
     /// # Errors
     /// If a code is missing or does not build pyramids, or a run fails.
@@ -93,8 +94,8 @@ impl PyramidBench {
         Ok(costs.into_iter().map(|(_, cost)| cost).collect())
     }
 
-    /// The pyramid of so many rows as `code` builds it. Native takes the convention of an external code with
-    /// the paper's arms, so that the two compute the same thing.
+    /// Returns the pyramid of so many `rows` as `code` builds it. Native takes the convention of an external code
+    /// with the paper's arms, so that the two compute the same thing.
     pub fn pyramid(&self, code: &SettledCode, rows: u32) -> Pyramid {
         let pyramid = Pyramid::touching(rows, STIFFNESS, convention(code));
         let cylinders = pyramid.cylinder_count().max(1) as u64;
@@ -129,17 +130,18 @@ impl PyramidCost {
         self.nanoseconds.push(nanoseconds);
     }
 
-    /// The median of the repeats, in nanoseconds per step and cylinder; NaN without repeats.
+    /// Returns the median of the repeats, in nanoseconds per step and cylinder; NaN without repeats.
     pub fn median(&self) -> f64 {
         median(&self.nanoseconds)
     }
 
-    /// The fastest of the repeats, which other load on the machine disturbs least, in nanoseconds per step and cylinder.
+    /// Returns the fastest of the repeats, which other load on the machine disturbs least, in nanoseconds per step
+    /// and cylinder.
     pub fn fastest(&self) -> f64 {
         fastest(&self.nanoseconds)
     }
 
-    /// The cost in units of that of `other`: the median of the ratios of consecutive runs.
+    /// Returns the cost in units of that of `other`: the median of the ratios of consecutive runs.
     pub fn ratio_to(&self, other: &Self) -> f64 {
         let pairs = self.nanoseconds.iter().zip(&other.nanoseconds);
         let ratios: Vec<f64> = pairs.map(|(own, other)| own / other).collect();

@@ -10,7 +10,7 @@ use std::time::Instant;
 
 /// Numbers of cases on one core.
 const CASES: [usize; 7] = [1, 2, 4, 8, 16, 64, 256];
-/// Steps of each of them.
+/// Steps of each case.
 const STEPS: u64 = 50_000;
 /// Smallest number of cases that are timed together, so that the time of a few can be resolved.
 const LEAST_CASES: usize = 64;
@@ -71,7 +71,7 @@ pub fn measure_scaling(
     })
 }
 
-/// Powers of two, and all cores of this machine.
+/// Returns the powers of two below the number of cores of this machine, and that number.
 fn numbers_of_cores() -> Vec<usize> {
     let all = std::thread::available_parallelism().map_or(1, usize::from);
     let doubled = std::iter::successors(Some(1), |cores| Some(2 * cores));
@@ -79,7 +79,7 @@ fn numbers_of_cores() -> Vec<usize> {
     numbers.chain([all]).collect()
 }
 
-/// Nanoseconds per step and case of `count` cases in one call.
+/// Returns nanoseconds per step and case of `count` cases in one call.
 fn in_lanes(
     lanes: &InstalledTarget,
     count: usize,
@@ -100,7 +100,7 @@ fn in_lanes(
     Ok(1e9 * seconds / (calls as f64 * steps as f64))
 }
 
-/// Nanoseconds per step and case of `cases`, distributed over so many `cores`.
+/// Returns nanoseconds per step and case of `cases`, distributed over so many `cores`.
 fn on_cores(
     lanes: &InstalledTarget,
     cases: &[Case],
@@ -119,7 +119,7 @@ fn on_cores(
     Ok(1e9 * seconds / steps as f64)
 }
 
-/// A row for each number of cases and of cores, from the nanoseconds of all repeats.
+/// Returns a row for each number of cases and of cores, from the nanoseconds of all repeats.
 fn rows<'a>(sizes: impl Iterator<Item = ((usize, usize), &'a Vec<f64>)>) -> Vec<ScalingRow> {
     let mut first = None;
     let rows = sizes.map(|((cases, cores), nanoseconds)| {

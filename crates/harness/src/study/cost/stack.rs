@@ -12,7 +12,7 @@ use crate::study::yield_force::{Measurement, extrapolate, plan};
 
 /// Stiffness of all stacks, the middle one of the paper.
 const STIFFNESS: f64 = 1e3;
-/// Friction of the first stack of cylinders; of spheres it is as many times the critical one.
+/// Friction of the first stack of cylinders. For spheres it is scaled with their critical friction.
 const FRICTION: f64 = 0.3;
 /// Difference between the frictions of two neighbouring stacks.
 const FRICTION_STEP: f64 = 1e-3;
@@ -58,8 +58,8 @@ pub struct StackCost {
     pub peak_bytes: Option<u64>,
 }
 
-/// The codes that are installed, of each the first variant, as they are declared: what a manifest leaves out does not change
-/// the duration of a step.
+/// Returns the installed codes, each in its first variant and as declared: keys that a manifest leaves out do not
+/// change the duration of a step.
 pub fn installed_codes() -> Vec<SettledCode> {
     let codes = Code::of_power(Power::Linear).into_iter();
     let installed = codes.filter(|code| code.is_first_variant() && code.find().is_some());
@@ -107,7 +107,7 @@ fn time_steps(
     Ok(())
 }
 
-/// The steps and the seconds of a short run and of a long one with so many `steps`.
+/// Times a short run and a long one with so many `steps`, and returns the steps and the seconds of each.
 pub(super) fn short_and_long(
     target: &InstalledTarget,
     bodies: u8,
@@ -138,7 +138,7 @@ fn time_yield_forces(
     Ok(())
 }
 
-/// The measurements of the yield forces of so many `stacks`, as a crosscheck plans them for `code`.
+/// Plans the measurements of the yield forces of so many `stacks`, as a crosscheck does for `code`.
 pub(super) fn plans((code, bodies): (&SettledCode, u8), stacks: usize) -> Vec<Measurement> {
     let stacks = (0..stacks).map(|index| stack(index, bodies));
     stacks
@@ -146,7 +146,7 @@ pub(super) fn plans((code, bodies): (&SettledCode, u8), stacks: usize) -> Vec<Me
         .collect()
 }
 
-/// The stack of the case at `index`, each with its own friction.
+/// Returns the stack of the case at `index`, each with its own friction.
 fn stack(index: usize, bodies: u8) -> Stack {
     let mut stack = Stack {
         bodies,
@@ -159,7 +159,7 @@ fn stack(index: usize, bodies: u8) -> Stack {
     stack
 }
 
-/// `count` cases with `part` / [`LENGTHS`] of a compression of so many `steps`, and few rows.
+/// Returns `count` cases with `part` / [`LENGTHS`] of a compression of so many `steps`, and few rows.
 pub(super) fn timed_cases(
     (code, bodies): (&SettledCode, u8),
     count: usize,
@@ -249,7 +249,8 @@ impl StackCost {
     }
 }
 
-/// Distance of the yield force that `summaries` give from the limit, relative to F + n + 1; infinite without one.
+/// Returns the distance of the slip onset that `summaries` give from the exact one, relative to F + n + 1; infinite
+/// if one of them is missing.
 fn yield_force_error(plan: &Measurement, summaries: impl Iterator<Item = RunSummary>) -> f64 {
     let estimates: Vec<YieldEstimates> = summaries.map(|summary| summary.estimates).collect();
     let steps: Vec<u64> = plan.cases.iter().map(Case::total_steps).collect();

@@ -80,7 +80,7 @@ pub(super) struct TimedRuns {
 }
 
 impl InstalledTarget {
-    /// `target`, which is `settled`.
+    /// Finds the installed code of `target`, whose convention is `settled`.
     pub(super) fn find(target: BenchTarget, settled: &SettledCode) -> Result<Self, BenchError> {
         let code = target.code();
         let found = code.find().ok_or(BenchError::Missing { code })?;
@@ -91,7 +91,7 @@ impl InstalledTarget {
         })
     }
 
-    /// Runs `cases`, from the start of the first process to the end of the last, on one core.
+    /// Times `cases` on one core, from the start of the first process to the end of the last.
     pub(super) fn time(
         &self,
         cases: &[Case],
@@ -137,8 +137,8 @@ impl InstalledTarget {
     }
 }
 
-/// What a contact is to `code`. Native takes the convention of the first external code with the paper's arms, so that
-/// the two compute the same thing.
+/// Returns the contact convention of `code`. Native takes the convention of the first external code with the paper's
+/// arms, so that the two compute the same thing.
 pub(super) fn convention(code: &SettledCode) -> ContactConvention {
     let own = code.convention();
     if !code.name().is_native() {

@@ -1,15 +1,15 @@
-//! From four time steps, each half the one before, to none.
+//! Extrapolation to vanishing time step, from four time steps, each half the one before.
 
-/// The steps in which an impact is cut, coarsest first. At the finest, the first order in the time step is some 1e-4, and
-/// what the extrapolation leaves is below 1e-7.
+/// Numbers of time steps in an impact, coarsest first. At the finest, the error of first order in the time step is
+/// some 1e-4, and what the extrapolation leaves is below 1e-7.
 pub const DIVISIONS: [u32; 4] = [512, 1024, 2048, 4096];
 
-/// The powers of the time step in the error of a leapfrog, lowest first.
+/// Returns the powers of the time step in the error of a leapfrog, lowest first.
 ///
-/// Contact begins and ends in the middle of a step, so that forces are sampled as by the midpoint rule. Without damping
-/// its error is of second order, and of order p + 1 from either end, where the force grows as the overlap to the power p.
-/// Damping is computed from velocities half a step old, which is of first order; it grows as the overlap to some power,
-/// which adds the order of that power plus 1.
+/// Contact begins and ends in the middle of a step, so that forces are sampled as by the midpoint rule. Without
+/// damping its error is of second order, and of order p + 1 from either end, where the force grows as the overlap to
+/// the power p. Damping is computed from velocities half a step old, which is of first order; it grows as the overlap
+/// to some power, which adds the order of that power plus 1.
 pub(super) fn orders(power: f64, damping_exponent: Option<f64>) -> [f64; 3] {
     match damping_exponent {
         None if power == 1.0 => [2.0, 4.0, 6.0],
@@ -22,9 +22,9 @@ pub(super) fn orders(power: f64, damping_exponent: Option<f64>) -> [f64; 3] {
 /// A number at vanishing time step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Extrapolated {
-    /// Without any of the orders.
+    /// The value without any of the orders.
     pub value: f64,
-    /// Its change by the last of them.
+    /// Size of the change by the last order.
     pub last_change: f64,
 }
 
@@ -47,7 +47,7 @@ pub(super) fn extrapolate(values: [f64; 4], orders: [f64; 3]) -> Extrapolated {
     }
 }
 
-/// The weights of the four values in the extrapolated one.
+/// Returns the weights of the four values in the extrapolated one.
 pub(super) fn weights(orders: [f64; 3]) -> [f64; 4] {
     std::array::from_fn(|index| {
         let unit = std::array::from_fn(|other| f64::from(u8::from(other == index)));

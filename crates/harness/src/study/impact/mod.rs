@@ -1,9 +1,10 @@
-//! Impacts: the standard tests of the field in their exact parts (Chung and Ooi 2011), carried out as motions of two
-//! cylinders by every code.
+//! Impacts: the exact parts of the field's standard tests (Chung and Ooi 2011), which every code carries out as
+//! motions of two cylinders.
 //!
 //! A cylinder strikes another one, or the floor, head-on or while its surface slides. Greatest overlap, duration,
-//! restitution, and what friction does to velocity and spin are read at four time steps, extrapolated to none, and compared
-//! with their exact values. Spheres and cylinders differ here by the moment of inertia alone.
+//! restitution, and the changes of velocity and spin by friction are read at four time steps, extrapolated to
+//! vanishing time step, and compared with their exact values. Spheres and cylinders differ here in the moment of
+//! inertia alone.
 
 mod extrapolate;
 mod plan;

@@ -9,8 +9,8 @@ use crate::model::{
 use crate::runs::ImpactRun;
 use crate::theory::{NormalImpact, has_closed_form, normal_impact};
 
-/// Restitution in place of 1 for codes that refuse 1: its damping changes nothing by more than some 1e-9, a hundredth of
-/// the smallest tolerance, under any law of damping.
+/// Restitution in place of 1 for codes that refuse 1. Its damping changes nothing by more than some 1e-9, a hundredth
+/// of the smallest tolerance, under any law of damping.
 pub const NEARLY_ELASTIC: f64 = 1.0 - 1e-9;
 /// Declared restitutions of damped impacts.
 const DAMPED: [f64; 2] = [0.8, 0.5];
@@ -24,11 +24,12 @@ const OBLIQUE_DAMPED: f64 = 0.8;
 const FRICTION: f64 = 0.01;
 /// k_n/k_t: that of Mindlin's spring at Poisson's ratio 2/7.
 const STIFFNESS_RATIO: f64 = 1.2;
-/// The surfaces slide so fast that a single step would stretch an empty tangential spring to so many times the largest
-/// friction force: no contact sticks, whatever happens to the spring of one that slides.
+/// A single finest step stretches an empty tangential spring to this many times the largest friction force. Surfaces
+/// that slide so fast never stick, whatever happens to the spring of a contact that slides.
 const SLIDING_MARGIN: f64 = 2.0;
-/// Sliding speed of a contact that sticks at first, in μ κ times the speed of approach: it sticks for a hundredth of the
-/// impact, which the finest steps resolve, and friction, which takes some 7 μ times the speed of approach, does not stop it.
+/// Sliding speed of a contact that sticks at first, in μ κ times the speed of approach. It sticks for a hundredth of
+/// the impact, which the finest steps resolve; and friction, which takes some 7 μ times the speed of approach, does
+/// not stop it.
 const FAST: f64 = 12.0;
 /// Length of a motion, in units of the exact duration of the overlap: a contact half as stiff parts within it.
 const LENGTH: f64 = 1.5;
@@ -76,7 +77,7 @@ impl ImpactQuantity {
         }
     }
 
-    /// Whether it is what friction changes.
+    /// Whether friction changes it.
     pub fn is_oblique(self) -> bool {
         Self::OBLIQUE.contains(&self)
     }
@@ -120,15 +121,15 @@ pub struct ImpactStudy {
 }
 
 impl ImpactStudy {
-    /// Whether the convention declares a damping worth the name.
+    /// Whether the convention declares more damping than that of [`NEARLY_ELASTIC`].
     pub fn is_damped(&self) -> bool {
         is_damped(&self.impact)
     }
 
-    /// Where the exact value comes from.
+    /// Returns where the exact value comes from.
     ///
-    /// While the surfaces slide, the tangential force is μ |N|. A damped contact of some conventions sticks at times; then a
-    /// twin is the reference.
+    /// While the surfaces slide, the tangential force is μ |N|. A damped contact of some conventions sticks at times;
+    /// then a twin is the reference.
     pub fn reference(&self) -> Reference {
         match self.quantity.is_oblique() {
             false if has_closed_form(&self.impact) => Reference::ClosedForm,
@@ -140,7 +141,7 @@ impl ImpactStudy {
         }
     }
 
-    /// The runs of the native twin.
+    /// Returns the runs of the native twin.
     pub(super) fn twin(&self) -> Vec<ImpactRun> {
         let with_convention = |run: &ImpactRun| ImpactRun {
             test: ContactTest {
@@ -184,7 +185,7 @@ pub fn plan_impacts(code: &SettledCode, convention: ContactConvention) -> Vec<Im
     studies
 }
 
-/// The restitution of an elastic impact that `code` accepts.
+/// Returns the restitution of an elastic impact that `code` accepts.
 fn elastic(code: &Code, convention: &ContactConvention) -> f64 {
     let asked = ContactConvention {
         restitution: 1.0,
@@ -196,7 +197,7 @@ fn elastic(code: &Code, convention: &ContactConvention) -> f64 {
     }
 }
 
-/// `impact` with surfaces that go on sliding until they part.
+/// Returns `impact` with surfaces that go on sliding until they part.
 fn sliding(impact: Impact) -> Impact {
     let sliding_speed = match sticks_at_first(&impact) {
         true => FAST * impact.friction * impact.stiffness_ratio * impact.approach_speed,
@@ -214,8 +215,9 @@ fn sticks_at_first(impact: &Impact) -> bool {
     is_damped(impact) && impact.convention.coulomb_operand == CoulombOperand::Spring
 }
 
-/// Whether a contact that slides may stick again: a spring that follows a limit on spring and damping holds the limit less
-/// the damping of the last step, and where that has faded faster than the force of the spring, both are below the limit.
+/// Whether a contact that slides may stick again. A spring that follows a limit on spring and damping holds the limit
+/// minus the damping of the last step. Where that damping has faded faster than the force of the spring, their sum is
+/// below the limit.
 fn may_stick_again(impact: &Impact) -> bool {
     let (convention, law) = (&impact.convention, &impact.convention.law);
     let holds_less = convention.sliding_spring == SlidingSpring::FollowsLimit
@@ -227,7 +229,7 @@ fn may_stick_again(impact: &Impact) -> bool {
     is_damped(impact) && holds_less && !(neither_changes || both_change_alike)
 }
 
-/// Whether the convention declares a damping worth the name.
+/// Whether the convention declares more damping than that of [`NEARLY_ELASTIC`].
 fn is_damped(impact: &Impact) -> bool {
     impact.convention.restitution < NEARLY_ELASTIC
 }
@@ -239,7 +241,7 @@ fn speed_without_sticking(impact: &Impact) -> f64 {
     SLIDING_MARGIN * largest_friction / (law.tangential_stiffness * finest_step)
 }
 
-/// The time step at which the force of a normal impact, which begins in the middle of a step, also ends there.
+/// Returns the time step with which the force of a normal impact begins in the middle of a step and also ends there.
 fn time_step(normal: &NormalImpact, division: u32) -> f64 {
     normal.force_duration / f64::from(division)
 }
@@ -251,7 +253,7 @@ fn studies_of(
 ) -> impl Iterator<Item = ImpactStudy> {
     let asked = match code.name().accepts_any_convention() {
         true => impact.convention,
-        // Motions are asked for under the declaration.
+        // Motions are requested under the declared convention.
         false => ContactConvention {
             restitution: impact.convention.restitution,
             ..code.name().declaration().convention

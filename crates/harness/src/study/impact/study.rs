@@ -1,4 +1,4 @@
-//! The evaluation of an impact: its measured number beside the exact one.
+//! The evaluation of an impact: its measured number, compared with the exact one.
 
 use super::extrapolate::{DIVISIONS, extrapolate, orders, weights};
 use super::plan::{ImpactQuantity, ImpactStudy, Reference};
@@ -11,7 +11,7 @@ use crate::theory::{damping_exponent, sliding_change};
 
 /// The largest coordinate of a body that touches, in r.
 const LARGEST_COORDINATE: f64 = 4.0;
-/// Significant digits that give a number of double precision back exactly.
+/// Significant digits that reproduce a number of double precision exactly.
 const ALL_DIGITS: u32 = 17;
 
 /// A measured number of an impact.
@@ -21,7 +21,8 @@ pub struct ImpactFinding {
     pub measured: f64,
     /// The exact value.
     pub exact: f64,
-    /// Measured minus exact, over exact. Beside a twin the runs are compared step by step first.
+    /// Measured minus exact, over exact. Where a twin is the reference, the runs are compared at each time step
+    /// before the difference is extrapolated.
     pub error: f64,
     /// The parts of its uncertainty.
     pub budget: ImpactBudget,
@@ -32,7 +33,7 @@ pub struct ImpactFinding {
 pub struct ImpactBudget {
     /// Change by the last order that the extrapolation removes.
     pub time_step: f64,
-    /// Kink of the limit μ |N| where a normal force begins to pull, which lies anywhere in a step.
+    /// Kink of the limit μ |N| where a normal force begins to pull; it may lie anywhere in a step.
     pub sign_change: f64,
     /// Rounding of positions and velocities in every step, a random walk.
     pub round_off: f64,
@@ -43,7 +44,7 @@ pub struct ImpactBudget {
 }
 
 impl ImpactBudget {
-    /// The sum of the parts.
+    /// Returns the sum of the parts.
     pub fn total(&self) -> f64 {
         self.time_step + self.sign_change + self.round_off + self.print_precision + self.convention
     }
@@ -53,13 +54,13 @@ impl ImpactBudget {
 pub type ImpactJudgement = Judged<ImpactStudy, Option<ImpactFinding>>;
 
 impl ImpactJudgement {
-    /// The result, unless its reference belongs to another convention.
+    /// Returns the result, unless its reference belongs to another convention.
     pub fn judged(&self) -> Option<&ImpactFinding> {
         let finding = self.finding.as_ref()?.as_ref();
         finding.filter(|_| self.grounds.is_judged())
     }
 
-    /// Largest relative error that agrees.
+    /// Returns the largest relative error that agrees.
     pub fn tolerance(&self) -> Option<f64> {
         Some(tolerance(self.judged()?.budget.total()))
     }
@@ -142,7 +143,7 @@ impl Study for ImpactStudy {
     }
 }
 
-/// What was read of all runs; `None` if one is missing.
+/// Returns the rebounds of all runs; `None` if one is missing.
 fn rebounds(runs: &[ImpactReading]) -> Option<[Rebound; 4]> {
     let all: Option<Vec<Rebound>> = runs.iter().map(|run| run.rebound).collect();
     all?.try_into().ok()
@@ -187,7 +188,7 @@ impl ImpactStudy {
             budget: ImpactBudget {
                 time_step: (difference.last_change / exact).abs(),
                 sign_change: match twin {
-                    // Both have the same.
+                    // Code and twin have the same kink.
                     Some(_) => 0.0,
                     None => self.sign_change(weights(orders)),
                 },
@@ -198,7 +199,7 @@ impl ImpactStudy {
         })
     }
 
-    /// The exact value; `None` if the equations cannot be integrated.
+    /// Returns the exact value; `None` if the equations cannot be integrated.
     pub fn exact(&self) -> Option<f64> {
         let normal = &self.normal;
         Some(match self.quantity {
@@ -210,8 +211,9 @@ impl ImpactStudy {
         })
     }
 
-    /// The midpoint rule is wrong by up to h² |dN/dt|/6, beyond what depends smoothly on h, in a step of length h in which
-    /// |N| has a kink: that is (1/2 − u)² − 1/12 at the distance u h from its middle, at most 1/4 − 1/12.
+    /// Bounds the effect of the kink of |N|. In the step of length h that contains it, the midpoint rule is wrong by
+    /// up to h² |dN/dt|/6, beyond what depends smoothly on h: the factor of h² |dN/dt| is (1/2 − u)² − 1/12 for a
+    /// kink at the distance u h from the middle of the step, at most 1/4 − 1/12.
     fn sign_change(&self, weights: [f64; 4]) -> f64 {
         if !self.quantity.is_oblique() {
             return 0.0;
@@ -229,7 +231,7 @@ impl ImpactStudy {
                 .sum::<f64>()
     }
 
-    /// How much larger a relative error of coordinates or velocities is in the number.
+    /// Returns the factor by which the number amplifies a relative error of coordinates or velocities.
     fn amplification(&self, exact: f64) -> f64 {
         let of_overlap = 2.0 * LARGEST_COORDINATE / self.normal.greatest_overlap;
         match self.quantity.is_oblique() {
@@ -238,7 +240,8 @@ impl ImpactStudy {
         }
     }
 
-    /// A torque with the arm R = r + r₁ δ changes the spin in proportion to R over the inertia.
+    /// Returns the uncertainty from measured arms and inertia. A torque with the arm R = r + r₁ δ changes the spin in
+    /// proportion to R over the inertia.
     fn convention(&self) -> f64 {
         if self.quantity != ImpactQuantity::Spin {
             return 0.0;

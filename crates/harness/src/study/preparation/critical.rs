@@ -23,8 +23,8 @@ pub struct CriticalPush {
     pub width: f64,
 }
 
-/// A* of each of `stacks`, the smallest push beyond which c appears, by bisection, every step a native run
-/// under the paper's convention; `None` where c > 0 already at A = 0, or c = 0 up to A = 2 ε.
+/// Finds A* of each of `stacks`, the smallest push beyond which c appears, by bisection. Every step is a native run
+/// under the paper's convention. The result is `None` where c > 0 already at A = 0, or c = 0 up to A = 2 ε.
 pub fn critical_pushes(
     campaign: &Campaign,
     stacks: &[Stack],
@@ -53,7 +53,7 @@ pub fn critical_pushes(
         .collect())
 }
 
-/// The last push of the grid without contact and the first with it, for each stack.
+/// Returns the last push of the grid without contact and the first with it, for each stack.
 fn first_contacts(
     campaign: &Campaign,
     stacks: &[Stack],
@@ -75,8 +75,7 @@ fn first_contacts(
         .collect())
 }
 
-/// Whether the bottom cylinders of each stack touch at the beginning of the compression, after the given
-/// push.
+/// Whether the bottom cylinders of each stack touch at the beginning of the compression, after the given push.
 fn touching(campaign: &Campaign, pushed: &[(Stack, f64)]) -> Result<Vec<bool>, RunError> {
     let native = SettledCode::native();
     let workloads = pushed.iter().map(|(stack, push)| {

@@ -12,7 +12,8 @@ const FINE_FROM: f64 = 0.5;
 /// where they should not.
 const FINER: f64 = 0.5;
 
-/// `protocol`, planned for a gravity ramp, with a preparation between side walls in its place.
+/// Replaces the gravity ramp that `protocol` was planned for by a preparation between side walls, with a longer
+/// travel and an earlier start of fine rows.
 pub fn between_side_walls(protocol: &Protocol, walls: SideWalls) -> Protocol {
     Protocol {
         preparation: Preparation::SideWalls(walls),
@@ -30,7 +31,7 @@ pub fn between_side_walls(protocol: &Protocol, walls: SideWalls) -> Protocol {
 pub struct PreparationPlan {
     /// The code.
     pub code: SettledCode,
-    /// The code whose convention it has; another one than itself makes it a twin.
+    /// The code whose convention it has; if that is another code, it is a twin.
     pub convention_of: Code,
     /// A in r; `None` for the gravity ramp.
     pub push: Option<f64>,
@@ -47,8 +48,8 @@ impl PreparationPlan {
     }
 }
 
-/// Plans the yield force of `stack` with `code`, under its own convention or, natively, as a twin of
-/// `convention_of`; side walls are pushed in by `push`, or gravity rises where there is none.
+/// Plans the yield force of `stack` with `code`, under its own convention or, natively, as a twin of `convention_of`.
+/// Side walls are pushed in by `push`; without one, gravity rises instead.
 pub fn plan_preparation(
     code: &SettledCode,
     convention_of: &SettledCode,

@@ -22,8 +22,8 @@ pub struct PreparationRow {
     pub convention_of: Code,
     /// A in r; `None` for the gravity ramp.
     pub push: Option<f64>,
-    /// The exact limit after a gravity ramp under this convention, in m g, or with a push, and arms 0, what
-    /// becomes of it if nothing slides during the preparation ([`pushed_slip_force`]).
+    /// In m g: after a gravity ramp, the exact limit under this convention; after a push, what becomes of that limit
+    /// if nothing slides during the preparation ([`pushed_slip_force`]), for arms 0 and linear springs alone.
     pub limit_force: Option<f64>,
     /// c between the bottom cylinders when the compression begins, in m g.
     pub contact_force: Option<f64>,
@@ -59,7 +59,7 @@ pub struct PreparationStudy {
 }
 
 impl PreparationStudy {
-    /// The rows of `code` with the convention of `convention_of`.
+    /// Returns the rows of `code` with the convention of `convention_of`.
     pub fn rows_of(
         &self,
         code: &Code,
@@ -70,8 +70,8 @@ impl PreparationStudy {
         self.rows.iter().filter(own)
     }
 
-    /// By how much F at `push` is above F at A = 0, natively under the paper's convention, relative to
-    /// F + 3.
+    /// Returns by how much F at `push` exceeds F at A = 0, natively under the paper's convention, relative to F + 3
+    /// at A = 0.
     pub fn shift(&self, push: f64) -> Option<f64> {
         let native = Code::native();
         let force = |push: f64| {
@@ -89,8 +89,8 @@ const STIFFNESSES: [f64; 2] = [1e2, 1e4];
 /// Pushes in units of ε, besides 0 and A*: two below A*, three above.
 const PUSHES: [f64; 5] = [0.25, 0.5, 1.0, 2.0, 5.0];
 
-/// The studies for the paper's figures: every one of `codes` at μ = 0.2 and stiffness 100, and native at frictions
-/// below, at and above the critical one at the stiffnesses 100 and 10⁴.
+/// Carries out the studies for the paper's figures: every one of `codes` at μ = 0.2 and stiffness 100, and native at
+/// frictions below, at and above the critical one at the stiffnesses 100 and 10⁴.
 pub fn preparation_studies(
     campaign: &Campaign,
     codes: &[SettledCode],
@@ -105,7 +105,7 @@ pub fn preparation_studies(
     Ok(studies)
 }
 
-/// The cases of [`preparation_studies`] that `code` runs.
+/// Returns the cases of [`preparation_studies`] that `code` runs.
 pub fn preparation_cases(campaign: &Campaign, code: &SettledCode) -> Result<Vec<Case>, RunError> {
     let stack = Stack::paper(FRICTIONS[0], STIFFNESSES[0]);
     let critical = critical_pushes(campaign, &[stack])?;
@@ -257,8 +257,8 @@ impl Study for PreparationPlan {
 }
 
 impl PreparationPlan {
-    /// F with its uncertainty, by slip onset where the peak does not contradict it, by the peak elsewhere;
-    /// `None` without a peak.
+    /// Returns F with its uncertainty, from the slip onset unless the peak contradicts it, else from the peak; `None`
+    /// without a peak.
     fn yield_force(&self, runs: &[RunSummary]) -> Option<(f64, f64, Estimator)> {
         let estimates: Vec<YieldEstimates> = runs.iter().map(|run| run.estimates).collect();
         let slip = self

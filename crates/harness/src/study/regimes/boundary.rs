@@ -13,7 +13,7 @@ use crate::theory::{BoundaryPoint, Event, LoadingOutcome, Regime};
 const SPEED: f64 = 2e-4;
 /// Travel of the wall in units of the predicted travel, if no event comes.
 const FURTHER: f64 = 1.05;
-/// How much slower a run is repeated that contradicts the claim.
+/// Factor by which a run that contradicts the claim is slowed down for its repeat.
 const SLOWER: f64 = 4.0;
 
 /// A stack beside a boundary: claim and observation.
@@ -41,7 +41,7 @@ pub struct Confirmation {
 }
 
 impl Confirmation {
-    /// The worse of the two sides. A boundary with the same regime on both sides is none.
+    /// Returns the worse verdict of the two sides. A boundary must have different regimes on its two sides.
     pub fn verdict(&self) -> Verdict {
         let [below, above] = self.point.sides.map(|outcome| outcome.regime());
         let mut grounds = Grounds::new();
@@ -56,12 +56,12 @@ impl Confirmation {
 pub(super) struct SidePlan {
     claimed: LoadingOutcome,
     run: EventRun,
-    /// The regime that contradicts the claim in a faster run, of which this is the repeat.
+    /// If this is a repeat, the regime of the faster run, which contradicts the claim.
     contradicting: Option<Option<Regime>>,
 }
 
 impl SidePlan {
-    /// The neighbours of `point`, the one below first.
+    /// Returns the neighbours of `point`, the one below first.
     pub(super) fn beside(point: &BoundaryPoint) -> [Self; 2] {
         let [below, above] = point.neighbours();
         let [claimed_below, claimed_above] = point.sides;
@@ -85,7 +85,7 @@ impl SidePlan {
         }
     }
 
-    /// The slower run that is needed if the one `observed` contradicts the claim.
+    /// Returns the slower run that is needed if the one `observed` contradicts the claim.
     pub(super) fn repeat(&self, observed: &Observation) -> Option<Self> {
         let shown = regime(observed);
         let usual = self.run.loading;
@@ -152,7 +152,7 @@ impl Side {
     }
 }
 
-/// The observed regime; `None` without events.
+/// Returns the observed regime; `None` without events.
 fn regime(observation: &Observation) -> Option<Regime> {
     let (last, last_stage) = observation.last?;
     let (first, first_stage) = observation

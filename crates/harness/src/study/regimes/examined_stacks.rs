@@ -4,7 +4,8 @@ use super::THREE_DIGITS;
 use crate::model::{HistoryUpdate, PAPER_STIFFNESS_RATIO, Stack};
 use crate::theory::{EquilibriumPath, released_frictions};
 
-/// Stacks that cover every consequence of the first event, under this rule for springs whose contacts turn.
+/// Returns stacks that cover every consequence of the first event. Springs change by this rule as their contacts
+/// turn.
 pub fn examined_stacks(history_update: HistoryUpdate) -> Vec<Stack> {
     let mut stacks = vec![
         stack(0.3, 0.7, 1e2, PAPER_STIFFNESS_RATIO),
@@ -50,7 +51,7 @@ fn stack(
     }
 }
 
-/// Both neighbours of each of the two frictions between which the floor slips while c > 0.
+/// Returns both neighbours of each of the two frictions between which the floor slips while c > 0.
 fn beside_released_frictions(stiffness_ratio: f64, history_update: HistoryUpdate) -> Vec<Stack> {
     let base = stack(0.3, 0.7, 1e2, stiffness_ratio);
     let path = EquilibriumPath::new(&base, history_update);

@@ -15,7 +15,7 @@ use crate::theory::{FailureMode, LoadingOutcome};
 /// peak to have fallen.
 const FURTHER: f64 = 1.1;
 
-/// How much slower the runs are than those of the crosscheck, which need not resolve the peak.
+/// Factor by which the runs are slower than those of the crosscheck, which need not resolve the peak.
 const SLOWER: f64 = 8.0;
 
 /// Number of runs of one stack.
@@ -32,7 +32,7 @@ pub struct Examination {
     pub peak: Option<Extrapolation>,
     /// The uncertainty of the peak, in m g.
     pub uncertainty: Option<f64>,
-    /// (peak − theory)/(F + 3), where both have one.
+    /// (peak − theory)/(F + 3), where both have a peak.
     pub error: Option<f64>,
     /// Whether the stack stands and the peak is as claimed, or absent as claimed.
     pub verdict: Verdict,
@@ -48,7 +48,7 @@ pub(super) struct PeakPlan {
 }
 
 impl PeakPlan {
-    /// The runs of `stack`; `None` if theory makes no prediction.
+    /// Plans the runs of `stack`; `None` if theory makes no prediction.
     pub(super) fn new(stack: &Stack, history_update: HistoryUpdate) -> Option<Self> {
         let claimed = LoadingOutcome::of(stack, history_update)?;
         if !claimed.is_end_known {
@@ -157,7 +157,7 @@ fn loadings(stack: &Stack, claimed: &LoadingOutcome) -> [Loading; RUNS] {
     })
 }
 
-/// The peak of one run; none where the force is largest at the very end.
+/// Returns the peak of one run; none where the force has not fallen after its maximum.
 fn estimates(observation: &Observation) -> YieldEstimates {
     YieldEstimates {
         slip: None,

@@ -1,4 +1,4 @@
-//! How slowly stacks are loaded.
+//! The rates at which stacks are loaded.
 
 use crate::dem::Loading;
 use crate::model::{ContactConvention, Stack};
@@ -9,8 +9,8 @@ const GRAVITY_RATE: f64 = 2e-3;
 /// Time step, unless the stack needs a shorter one.
 const TIME_STEP: f64 = 0.1;
 
-/// A loading of `stack` until somewhat after `critical_state`: the wall travels by a fraction `further` − 1 of travel
-/// and overlap beyond it, at `speed` times the predicted displacement per unit time.
+/// Returns a loading of `stack` to somewhat beyond `critical_state`: the wall travels on by a fraction `further` − 1
+/// of travel plus overlap, at `speed` times the predicted displacement per unit time.
 pub(super) fn loading(
     stack: &Stack,
     critical_state: &CriticalState,

@@ -26,7 +26,7 @@ pub struct Survey {
 }
 
 impl Survey {
-    /// Every verdict, boundaries first.
+    /// Returns every verdict, boundaries first.
     pub fn verdicts(&self) -> impl Iterator<Item = Verdict> + '_ {
         let boundaries = self.confirmations.iter().map(Confirmation::verdict);
         boundaries.chain(self.examinations.iter().map(|row| row.verdict))
@@ -34,8 +34,8 @@ impl Survey {
 }
 
 impl SurveyPlan {
-    /// The neighbours of `points`, and the largest forces of `stacks`, under this rule for springs whose contacts turn. Stacks of
-    /// which theory does not know the end are left out.
+    /// Plans runs beside `points`, and of the largest forces of `stacks`. Springs change by this rule as their
+    /// contacts turn. Stacks whose end theory does not know are left out.
     pub fn new(points: &[BoundaryPoint], stacks: &[Stack], history_update: HistoryUpdate) -> Self {
         let peaks = stacks
             .iter()

@@ -80,7 +80,7 @@ impl Study for Trajectory {
                 finding.comparisons = pairs.iter().flat_map(Pair::comparisons).collect();
                 hold_full_twin_to_the_other(&mut finding.comparisons);
                 doubt_few_digits(&mut finding.comparisons, samples.first(), &self.stack);
-                // Mechanics is that of a symmetric stack.
+                // The checks of mechanics assume a symmetric stack.
                 if self.stack.arrangement.displacement == 0.0 {
                     hold_to_mechanics(&mut finding.comparisons, runs.first());
                 }
@@ -95,7 +95,7 @@ impl Study for Trajectory {
 }
 
 impl Trajectory {
-    /// The code beside each of its twins; `None` if one of them does not collapse, or nothing was planned.
+    /// Pairs the code with each of its twins; `None` if a twin does not collapse, or nothing was planned.
     fn pairs<'a>(&'a self, samples: &[Vec<&'a [Sample]>]) -> Option<Vec<Pair<'a>>> {
         let (own, twins) = samples.split_first()?;
         let pairs = self.twins.iter().zip(twins);
@@ -105,7 +105,7 @@ impl Trajectory {
     }
 }
 
-/// Holds the runs of the code to mechanics in every comparison before the slip.
+/// Holds the runs of the code to mechanics in every comparison of the compression.
 fn hold_to_mechanics(comparisons: &mut [Comparison], own: Option<&Vec<Rows>>) {
     let comparisons = comparisons.iter_mut();
     for comparison in comparisons.filter(|one| one.branch == Branch::Compression) {
@@ -115,8 +115,8 @@ fn hold_to_mechanics(comparisons: &mut [Comparison], own: Option<&Vec<Rows>>) {
     }
 }
 
-/// Requires the twin that has the history update of the code to be the closer one in the collapse, where the update
-/// shows in both twins at the same order.
+/// Requires the full twin, which has the history update of the code, to be the closer one in the collapse, where the
+/// update shows in both twins at the same order.
 fn hold_full_twin_to_the_other(comparisons: &mut [Comparison]) {
     let largest =
         |comparison: &Comparison| comparison.distances.last().map(|finest| finest.largest);
@@ -134,7 +134,7 @@ fn hold_full_twin_to_the_other(comparisons: &mut [Comparison]) {
     }
 }
 
-/// Withdraws disagreements of series, those of the code in `own`, that are printed with too few digits for them.
+/// Withdraws disagreements if the series of the code, in `own`, are printed with too few digits to show them.
 fn doubt_few_digits(comparisons: &mut [Comparison], own: Option<&Vec<&[Sample]>>, stack: &Stack) {
     let digits = own.into_iter().flatten().map(|samples| {
         let numbers = samples.iter().flat_map(|sample| {
@@ -214,7 +214,7 @@ impl<'a> Pair<'a> {
     fn compare(&self, quantity: Quantity, branch: Branch) -> Comparison {
         let growth = self.growth(quantity, branch);
         let series = self.series.iter().zip(&self.twin).zip(&self.runs.cases);
-        // Arms that were measured displace surfaces by no more than their uncertainty, since overlaps are below r.
+        // Measured arms displace surfaces by at most their uncertainty, since overlaps are below r.
         let open: f64 = self.code.settled().arms_open();
         let distances = series.map(|((series, twin), case)| Distance {
             round_off: growth * (round_off(case) + open),
@@ -258,8 +258,8 @@ impl<'a> Pair<'a> {
         )
     }
 
-    /// Largest change of the twin when a time step is halved. Where it converges that is the change of the
-    /// coarsest; where it does not, any of them may be.
+    /// Largest change of the twin when a time step is halved. If the twin converges, that is the change of the
+    /// coarsest step; if not, it may be that of any.
     fn step_error(&self, quantity: Quantity, branch: Branch) -> f64 {
         let finer = self.twin.iter().skip(1).copied().chain([self.halved]);
         let changes = self
@@ -270,8 +270,8 @@ impl<'a> Pair<'a> {
         changes.fold(0.0, f64::max)
     }
 
-    /// Factor by which a displacement of the wall grows until it is seen, from the twin with a slightly faster
-    /// wall; in the unit of the quantity per r, at least 1 of a length.
+    /// Factor by which a displacement of the wall grows until it is seen, from the twin with a slightly faster wall;
+    /// in the unit of the quantity per r, and at least 1.
     fn growth(&self, quantity: Quantity, branch: Branch) -> f64 {
         let Some((case, twin)) = self.runs.cases.first().zip(self.twin.first()) else {
             return f64::INFINITY;

@@ -5,7 +5,7 @@ use crate::series::Sample;
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
 
-/// Deviations whose first time is reported, in the unit of the quantity.
+/// Thresholds, in the unit of the quantity; the time when a deviation first exceeds each of them is reported.
 pub(crate) const DEVIATIONS: [f64; 3] = [1e-6, 1e-4, 1e-2];
 
 /// A quantity that is compared.
@@ -29,10 +29,10 @@ pub enum Quantity {
 }
 
 impl Quantity {
-    /// Those of three cylinders.
+    /// The quantities compared for three cylinders.
     pub const OF_CYLINDERS: [Self; 4] = [Self::WallForce, Self::X2, Self::Y1, Self::Theta2];
 
-    /// Those of spheres, which no symmetry binds.
+    /// The quantities compared for spheres, whose motion no symmetry restricts.
     const OF_SPHERES: [Self; 4] = [
         Self::WallForce,
         Self::Centres,
@@ -40,7 +40,7 @@ impl Quantity {
         Self::FloorForces,
     ];
 
-    /// Those of `stack`.
+    /// The quantities compared for `stack`.
     pub fn of_stack(stack: &Stack) -> &'static [Self] {
         match stack.bodies {
             PAPER_BODIES => &Self::OF_CYLINDERS,
@@ -80,7 +80,7 @@ impl Quantity {
         }
     }
 
-    /// The largest distance of its values in two rows.
+    /// The largest distance between its values in two rows.
     fn distance(self, left: &Sample, right: &Sample) -> f64 {
         let (left, right) = (self.of(left), self.of(right));
         let pairs = left.iter().zip(&right);
@@ -99,7 +99,7 @@ pub enum Branch {
     Compression,
     /// From the peak until the wall has lost cylinder 1.
     Collapse,
-    /// From there until cylinder 1 has landed on the floor. The wall force is zero.
+    /// From the loss of the wall contact until cylinder 1 has landed on the floor. The wall force is zero.
     Fall,
 }
 
@@ -107,8 +107,8 @@ impl Branch {
     /// All of them, in order of time.
     pub const ALL: [Self; 3] = [Self::Compression, Self::Collapse, Self::Fall];
 
-    /// Those that are compared, in order of time: of spheres the compression alone, since the symmetric ring breaks after
-    /// its yield by what rounding leaves in each code.
+    /// The branches that are compared, in order of time. For spheres it is the compression alone: after its yield,
+    /// the rounding in each code decides how the symmetric ring breaks.
     pub fn of_stack(stack: &Stack) -> &'static [Self] {
         match stack.bodies {
             PAPER_BODIES => &Self::ALL,
@@ -137,15 +137,15 @@ impl Branch {
 /// The rows of a series at which its branches end.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Milestones {
-    /// The wall force is highest.
+    /// The row with the highest wall force.
     pub peak: usize,
-    /// The first row without a wall force after that, and the first in which cylinder 1 touches the floor; not looked for
-    /// where the compression alone is compared.
+    /// The first row without a wall force after the peak, and the first row after that in which cylinder 1 touches
+    /// the floor; `None` where only the compression is compared.
     pub later: Option<[usize; 2]>,
 }
 
 impl Milestones {
-    /// Reads them off a series; `None` if one of them is missing.
+    /// Reads them off a series; `None` if one of them is missing, or the peak is at either end.
     pub fn read(samples: &[Sample], stack: &Stack) -> Option<Self> {
         let force = |row: usize| samples[row].wall_force;
         let peak = (0..samples.len()).max_by(|&i, &j| force(i).total_cmp(&force(j)))?;
@@ -182,11 +182,11 @@ impl Milestones {
 pub struct Distance {
     /// Time step of both.
     pub time_step: f64,
-    /// Largest distance of two rows.
+    /// Largest distance between rows at the same time.
     pub largest: f64,
     /// Root of the mean square over the rows.
     pub rms: f64,
-    /// Time of the first row that deviates by more than each of `DEVIATIONS`.
+    /// Time of the first row that deviates by more than each of `DEVIATIONS`; `None` if no row does.
     pub first_above: [Option<f64>; 3],
     /// The part of the largest distance that may be rounding, or the uncertainty of measured arms.
     pub round_off: f64,

@@ -51,9 +51,9 @@ impl Documented {
         Self::new(DocumentedOrder::RoundOff, reason)
     }
 
-    /// An experiment with YADE confirms it: if native, too, has contacts of zero overlap, the distance is 1e-14 up to
-    /// the peak, and 3e-10 of second order in the collapse, because YADE's spring, a vector, keeps a small component
-    /// along the normal when it is turned linearly.
+    /// The order for a code with contacts of zero overlap. An experiment with YADE confirms it: if the native code
+    /// has them too, the distance is 1e-14 up to the peak. In the collapse it is 3e-10 and of second order, because
+    /// YADE's spring is a vector that keeps a small component along the normal when it is turned linearly.
     fn first_touch(code: &Code) -> Self {
         let reason = format!(
             "{} knows contacts of zero overlap: its wall, which just touches at row 0, pushes with its damping \
@@ -73,7 +73,7 @@ impl Documented {
     fn angle(code: &Code, quantity: Quantity) -> Option<Self> {
         let angle = match (quantity, code.integration().angle) {
             (Quantity::Theta2, angle) => angle,
-            // Of spheres every deck sums the spin.
+            // For spheres every deck sums the spin.
             (Quantity::Rotations, Angle::Dipole) => Angle::SummedSpin,
             (Quantity::Rotations, angle) => angle,
             _ => return None,

@@ -1,4 +1,4 @@
-//! The verdict on the distances between a code and its twin, at time steps each half the one before.
+//! The verdict on the distances between a code and its twin at successively halved time steps.
 
 use super::distance::Distance;
 use super::documented::DocumentedOrder;
@@ -9,8 +9,8 @@ use std::f64::consts::LN_2;
 /// peak.
 pub const FORCE_TOLERANCE: f64 = 1e-6;
 
-/// Largest deviation from a documented order that agrees. Orders are whole numbers: half of this would still
-/// tell them apart, and a half could not.
+/// Largest deviation from a documented order that agrees. Orders are whole numbers, which a tolerance of 1/2 could
+/// not tell apart; half of this one still would.
 pub const ORDER_TOLERANCE: f64 = 0.25;
 
 /// The order seen in distances.
@@ -25,7 +25,7 @@ pub(crate) struct ObservedOrder {
 }
 
 impl ObservedOrder {
-    /// The sum of both.
+    /// The sum of both uncertainties.
     pub fn uncertainty(&self) -> f64 {
         self.curvature + self.noise
     }
@@ -65,8 +65,9 @@ pub(crate) fn observed_order(distances: &[Distance]) -> Option<ObservedOrder> {
     Some(if coarser_is_better { coarser } else { finer })
 }
 
-/// The grounds that `distances`, coarsest time step first, give for or against their documented order. `step_error`,
-/// the largest change of the twin itself when its time step is halved, bounds distances that fall irregularly.
+/// Collects the grounds that `distances`, coarsest time step first, give for or against their documented order. The
+/// finest distance must not exceed its round-off where only rounding is documented, or otherwise `step_error`, the
+/// largest change of the twin itself when its time step is halved.
 pub(crate) fn judge_order(
     documented: DocumentedOrder,
     distances: &[Distance],

@@ -9,9 +9,9 @@ use crate::study::{Grounds, Judged, Verdict};
 /// Times at which branches end.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Times {
-    /// Of the peak of the wall force.
+    /// Time of the peak of the wall force.
     pub peak: f64,
-    /// Of the loss of the wall and of the landing, where they are looked for.
+    /// Times of the loss of the wall contact and of the landing; `None` where only the compression is compared.
     pub later: Option<[f64; 2]>,
 }
 
@@ -20,7 +20,7 @@ pub struct Times {
 pub struct TrajectoryFinding {
     /// Times at which branches end; `None` without a comparison.
     pub times: Option<Times>,
-    /// Every quantity on every branch with every twin; none if a run shows no yield.
+    /// Every quantity on every branch with every twin; empty if a twin shows no yield, or columns are absent.
     pub comparisons: Vec<Comparison>,
 }
 
@@ -47,7 +47,7 @@ pub struct Comparison {
 }
 
 impl TrajectoryJudgement {
-    /// The comparisons; none if a run is missing, or the twin has another convention than the code.
+    /// The comparisons; empty if a run is missing, or the twin has another convention than the code.
     pub fn comparisons(&self) -> &[Comparison] {
         match &self.finding {
             Some(finding) if self.grounds.is_judged() => &finding.comparisons,
@@ -60,7 +60,7 @@ impl TrajectoryJudgement {
         self.finding.as_ref()?.times
     }
 
-    /// The verdict on every comparison, or the one in their place.
+    /// The verdict on every comparison, or the verdict on the row if there are none.
     pub fn verdicts(&self) -> Vec<Verdict> {
         match self.comparisons() {
             [] => vec![self.verdict()],
@@ -75,7 +75,7 @@ impl Comparison {
         self.grounds.verdict()
     }
 
-    /// The order between the two finest time steps; `None` if there is nothing but rounding.
+    /// The order between the two finest time steps; `None` where only rounding is documented, or a distance is zero.
     pub fn last_order(&self) -> Option<f64> {
         let [.., coarser, finest] = self.distances.as_slice() else {
             return None;
@@ -83,7 +83,7 @@ impl Comparison {
         self.order(coarser, finest)
     }
 
-    /// The order between two time steps; `None` if there is nothing but rounding.
+    /// The order between two time steps; `None` where only rounding is documented, or a distance is zero.
     pub fn order(&self, coarser: &Distance, finer: &Distance) -> Option<f64> {
         let has_one = self.documented.order != DocumentedOrder::RoundOff;
         has_one.then(|| order_between(coarser, finer)).flatten()

@@ -1,4 +1,5 @@
-//! Whole series at a finite wall speed: an external code beside a native twin that has its convention.
+//! Compares whole series at a finite wall speed: those of an external code with those of a native twin that has its
+//! convention.
 //!
 //! At a finite speed nothing hides behind a limit: mass, inertia, damping, friction and the history of every
 //! contact move the series. If the twin follows the same laws, the distance is round-off, or falls with the

@@ -1,4 +1,5 @@
-//! The runs of a comparison: a code at three time steps, and its twins at the same ones with two further runs.
+//! The runs of a comparison: a code at three time steps, and each of its twins at the same steps with two further
+//! runs.
 
 use crate::code::SettledCode;
 use crate::model::{
@@ -12,11 +13,11 @@ use serde::{Deserialize, Serialize};
 /// Wall speed in r √(k_n/m): fast enough for inertia and damping to show, slow enough for a yield.
 pub const WALL_SPEED: f64 = 1e-3;
 
-/// Time steps, each half the one before. The finest is the largest power of two times 0.1 at which the first
-/// touch of a YADE wall (see [`super::documented`]) is below 1e-6 of the peak.
+/// Time steps, each half the one before. The finest is the largest power of two times 0.1 at which the effect of the
+/// first touch of a YADE wall (see [`super::documented`]) is below 1e-6 of the peak.
 const TIME_STEPS: [f64; 3] = [0.025, 0.0125, 0.00625];
 
-/// The time steps for `stack`: of spheres, whose peak is lower, half as long for the same reason.
+/// The time steps for `stack`. For spheres, whose peak is lower, they are half as long for the same reason.
 pub fn time_steps(stack: &Stack) -> [f64; 3] {
     match stack.bodies {
         PAPER_BODIES => TIME_STEPS,
@@ -28,18 +29,18 @@ pub fn time_steps(stack: &Stack) -> [f64; 3] {
 /// to stay linear, and some hundred times the effect of rounding.
 pub(super) const DISTURBANCE: f64 = 1e-9;
 
-/// Time between rows, in whole steps of every time step; 370 to 700 rows a run.
+/// Time between rows, a multiple of every time step; 370 to 700 rows a run.
 const INTERVAL: f64 = 2.0;
-/// Time that the wall goes on beyond the quasi-static yield: the force peaks some 10 later, the wall loses
-/// cylinder 1 after another 22, and cylinder 1 lands after another 10.
+/// Time for which the wall moves on beyond the quasi-static yield: the force peaks some 10 later, the wall loses
+/// cylinder 1 another 22 later, and cylinder 1 lands another 10 later.
 const TIME_BEYOND_YIELD: f64 = 60.0;
 
-/// By how much one sphere of a ring is displaced, so that no symmetry is left.
+/// Displacement of one sphere of a ring, so that no symmetry is left.
 const DISPLACEMENT: f64 = 1e-3;
 
-/// The stack whose trajectories are compared, with so many bodies on the floor and contacts of this power: cylinders above
-/// critical friction, where torque arms matter most, and soft enough for positions and angles to move far. A code may
-/// accept no other stiffness ratios than those of its law, so that the law gives it.
+/// The stack whose trajectories are compared, with this many bodies on the floor and contacts of this power. Its
+/// friction is above the critical one, where torque arms matter most, and it is soft enough for positions and angles
+/// to move far. Its stiffness ratio is that of the law, because a code may accept no other.
 pub fn trajectory_stack(bodies: u8, power: Power) -> Stack {
     let mut stack = Stack {
         bodies,
@@ -58,7 +59,7 @@ pub fn trajectory_stack(bodies: u8, power: Power) -> Stack {
 pub enum Twin {
     /// All of it.
     Full,
-    /// All but the transport of the tangential spring, which turns with the contact. The distance to this
+    /// All but the transport of the tangential spring: that of this twin turns with the contact. The distance to this
     /// twin is of first order in the time step, and large enough for the order to be seen.
     RotatedSpring,
 }
@@ -106,8 +107,8 @@ pub struct Trajectory {
     pub twins: Vec<TwinRuns>,
 }
 
-/// Plans the trajectories of `stack` by `code` and by native twins that take on the convention `declared`
-/// for it. Nothing is planned where the stack does not yield.
+/// Plans the trajectories of `stack` by `code` and by native twins that adopt the convention `declared` for it.
+/// Nothing is planned if the stack does not yield.
 pub fn plan_trajectory(
     code: &SettledCode,
     stack: &Stack,
@@ -128,8 +129,8 @@ pub fn plan_trajectory(
         ..declared
     };
     let mut twins = vec![(Twin::Full, declared)];
-    // A spring that nothing turns stays apart from one that turns, and in space one that is turned by vector products also
-    // follows a common spin: no time step makes that small.
+    // No time step makes the difference small between a spring that turns with its contact and one that does not,
+    // nor, in space, the difference from a spring turned by vector products, which also follows a common spin.
     let approaches_it = declared.history_update.turns() && stack.bodies == PAPER_BODIES;
     if declared != rotated && approaches_it {
         twins.push((Twin::RotatedSpring, rotated));
@@ -182,8 +183,9 @@ fn protocols(stack: &Stack, convention: &ContactConvention) -> Vec<Protocol> {
     time_steps(stack).map(protocol).to_vec()
 }
 
-/// Ramp and rest of a yield force that is measured at this wall speed, as long as the law needs them: Hertz contacts still
-/// move at the end of the ramp of linear springs. In whole rows, so that they last as long at every time step.
+/// Ramp and rest of a yield force that is measured at this wall speed, as long as the law needs them: Hertz contacts
+/// still move at the end of the ramp of linear springs. Both last a whole number of row intervals, so that they are
+/// equally long at every time step.
 fn preparation(limit: &Limit) -> Preparation {
     let whole_rows = |time: f64| (time / INTERVAL).ceil() * INTERVAL;
     Preparation::GravityRamp {
@@ -242,7 +244,7 @@ mod tests {
                 panic!("{code}");
             };
             if case.convention.law.power == Power::Linear {
-                // The recorded series depend on it.
+                // The recorded series depend on these values.
                 assert_eq!([ramp_time, rest_time], [100.0, 100.0], "{code}");
                 continue;
             }

@@ -5,32 +5,32 @@ use super::runs::{Method, RunRoles};
 /// The parts of the numerical uncertainty, u_num of ASME V&V 20; each is an expected largest error in m g.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Budget {
-    /// Distance between the extrapolations of second and first order in the wall speed; at one speed the second order of
-    /// what theory expects the speed to add, and what the touch of the wall has left.
+    /// Distance between the extrapolations of second and first order in the wall speed. At one speed: the
+    /// second-order part of what theory expects the speed to add, plus what is left of the touch of the wall.
     pub wall_speed: f64,
-    /// Change of the middle run with the time step doubled: the error of the single step if it is of first
-    /// order, three times that if it is of second. Springs that remember forces are summed up by their
-    /// stiffness at the end of each step, which is off in proportion to the step of the wall: for them it is the
-    /// change of the straight line through the two faster runs, from which that has vanished with the speed.
-    /// A bound, or absent, if there is no such run.
+    /// Change of the middle run when the time step is doubled: the error at the single step if it is of first order,
+    /// three times that error if it is of second. Springs that remember forces are summed with their stiffness at the
+    /// end of each step, which gives an error proportional to the wall's displacement in a step. For them this is the
+    /// change of the straight line through the two faster runs, from which that error has vanished with the speed. A
+    /// bound, or absent, if there is no such run.
     pub time_step: Option<f64>,
     /// Change of the middle run with the gravity ramp halved. Damping along the ramp shifts the settled
     /// state by an amount inversely proportional to its duration, so that this is the shift itself.
     /// A bound, or absent, if there is no such run.
     pub preparation: Option<f64>,
-    /// Distance between interpolations of two orders between the rows, as the extrapolation amplifies it.
+    /// Distance between two interpolations of different order between the rows, as the extrapolation amplifies it.
     pub sampling: f64,
-    /// Rounding of positions in every step, accumulated like a random walk, as the estimator of the force and
-    /// the extrapolation amplify it. Contacts restore positions, so that twins of higher precision find ten
-    /// times less (tests/physics/round_off.rs).
+    /// Rounding of positions in every step, accumulated as a random walk and amplified by the estimator of the force
+    /// and by the extrapolation. Contacts restore positions, so that twins of higher precision find ten times less
+    /// (tests/physics/round_off.rs).
     pub round_off: f64,
-    /// Half a unit of the last digit that the code prints, amplified in the same way: the seventeenth, unless the
-    /// series has fewer.
+    /// Half a unit of the last digit that the code prints, amplified in the same way: the seventeenth digit, unless
+    /// the series has fewer.
     pub print_precision: f64,
-    /// Change of the straight line through the two faster runs without their shortcuts; 0 where none are taken.
-    /// Their error is mostly linear in the wall speed, and vanishes with it.
+    /// Change of the straight line through the two faster runs when these take no shortcuts; 0 if no run takes any.
+    /// The error of shortcuts is mostly linear in the wall speed, and vanishes with it.
     pub shortcuts: f64,
-    /// Change of the exact limit within the uncertainty of arms that were measured; absent where all are declared.
+    /// Change of the exact limit within the uncertainty of measured arms; absent if all are declared.
     pub convention: Option<f64>,
 }
 
@@ -43,14 +43,14 @@ pub struct BudgetPart {
     pub heading: &'static str,
     /// Its formula, in words.
     pub how: &'static str,
-    /// The run by which it becomes known; empty where no further run is needed.
+    /// The further run that makes it known; empty if none is needed.
     pub known_by: &'static str,
     /// Its value in m g; absent if it is not known, or does not apply.
     pub value: fn(&Budget) -> Option<f64>,
 }
 
 impl BudgetPart {
-    /// Its formula, in words, whatever the runs are.
+    /// Its formula in words, for any set of runs.
     pub fn meaning(&self) -> &'static str {
         match self.name {
             TIME_STEP => {
@@ -61,7 +61,7 @@ impl BudgetPart {
         }
     }
 
-    /// Its formula, in words, where the force is read off by this `method` and the runs play these `roles`.
+    /// Its formula in words, for a force read by this `method` from runs with these `roles`.
     pub fn how(&self, method: Method, roles: &RunRoles) -> &'static str {
         match (self.name, method) {
             (WALL_SPEED, Method::AtOneSpeed) => {
@@ -89,7 +89,7 @@ impl BudgetPart {
         }
     }
 
-    /// Whether there is a run that shows it, if it needs one.
+    /// Whether the run that shows it exists, if it needs one.
     fn has_run(&self, roles: &RunRoles) -> bool {
         match self.name {
             TIME_STEP => roles.coarse_time_step.is_some(),
@@ -169,14 +169,14 @@ impl Budget {
         },
     ];
 
-    /// The expanded uncertainty: the sum of the known parts, which is never below their root sum of squares, by which V&V 20
-    /// combines independent parts.
+    /// The expanded uncertainty: the sum of the known parts. It is never below their root sum of squares, with which
+    /// V&V 20 combines independent parts.
     pub fn total(&self) -> f64 {
         let parts = Self::PARTS.iter();
         parts.filter_map(|part| (part.value)(self)).sum()
     }
 
-    /// The parts of which only a bound is known where the runs play these `roles`, with their bounds.
+    /// The parts of which only a bound is known if the runs have these `roles`, with their bounds.
     pub(crate) fn bounded(&self, roles: &RunRoles) -> impl Iterator<Item = (BudgetPart, f64)> {
         let parts = Self::PARTS.into_iter();
         let bounded = parts.filter(|part| !part.has_run(roles));

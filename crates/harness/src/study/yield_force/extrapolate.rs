@@ -1,4 +1,4 @@
-//! From a few runs at finite wall speed to the quasi-static yield force and its uncertainty.
+//! Extrapolates a few runs at finite wall speed to the quasi-static yield force and its uncertainty.
 
 use super::budget::Budget;
 use super::runs::{MIDDLE_RUN, RunRoles, SPEEDS};
@@ -12,7 +12,7 @@ use serde::Serialize;
 pub struct Extrapolation {
     /// F = f/(m g), extrapolated with the parabola through the three speeds.
     pub force: f64,
-    /// The same with the straight line through the two slower ones.
+    /// The same force, extrapolated with the straight line through the two slower speeds.
     pub first_order: f64,
     /// The parts of its uncertainty.
     pub budget: Budget,
@@ -36,13 +36,13 @@ impl Extrapolation {
 pub enum Estimator {
     /// The onset of slip at the floor, which needs least extrapolation.
     SlipOnset,
-    /// The peak of f, the paper's definition; the only one where a stack slips without yielding before it: one that begins
-    /// at the verge of slip.
+    /// The peak of f, the paper's definition. The only estimator for a stack that begins at the verge of slip, and so
+    /// slips without yielding before the peak.
     Peak,
 }
 
 impl Estimator {
-    /// This force in one run.
+    /// The estimate of this force in one run.
     pub(crate) fn read(self, run: &YieldEstimates) -> Option<Estimate> {
         match self {
             Self::SlipOnset => run.slip,
@@ -50,7 +50,7 @@ impl Estimator {
         }
     }
 
-    /// What the wall adds to it per speed, to first order.
+    /// What the wall adds to it per unit of wall speed, to first order.
     pub(crate) fn excess(self, of_both: &SpeedExcess) -> f64 {
         match self {
             Self::SlipOnset => of_both.onset,
@@ -59,8 +59,8 @@ impl Estimator {
     }
 }
 
-/// The part of second order in the wall speed over that of first, at the fastest planned speed: by about the speed itself,
-/// 2e-3, it is smaller, and 25 times as much is allowed.
+/// Largest ratio of the second-order to the first-order part in the wall speed that is allowed for at the fastest
+/// planned speed. The ratio is below about that speed itself, 2e-3; this is 25 times as much.
 const CURVATURE: f64 = 0.05;
 
 /// The order of convergence in the wall speed.
@@ -73,7 +73,7 @@ pub struct ConvergenceOrder {
 }
 
 impl ConvergenceOrder {
-    /// That of a single speed, and of differences that are lost in noise.
+    /// The order of a single speed, and of differences that are lost in noise.
     pub(super) const NOT_OBSERVED: Self = Self {
         observed: None,
         allowance: f64::INFINITY,
@@ -82,8 +82,9 @@ impl ConvergenceOrder {
     /// The lag of the springs behind the wall, and with it the error, is linear in the wall speed.
     pub(crate) const EXPECTED: f64 = 1.0;
 
-    /// The order of forces at three `speeds` in units of the displacement, known up to `noise`. At the planned speeds the
-    /// term of second order moves it by less than 0.01; five times as much is allowed, and in proportion at faster ones.
+    /// The order of convergence of forces at three `speeds`, in units of the displacement; `noise` is the uncertainty
+    /// of the forces. At the planned speeds the second-order term moves the order by less than 0.01; five times as
+    /// much is allowed, and proportionally more at faster speeds.
     fn of(speeds: &[f64; 3], forces: &[f64], noise: f64) -> Self {
         let differences = [forces[0] - forces[1], forces[1] - forces[2]].map(f64::abs);
         let smallest = differences[0].min(differences[1]);
@@ -98,12 +99,12 @@ impl ConvergenceOrder {
         }
     }
 
-    /// The orders that are expected where the gravity ramp slows down with the wall. What it leaves behind is of second
-    /// order: it may exceed a lag of first order that nearly cancels, or take up to a third of it at the fastest speed
-    /// (which gives the order 1/2). The parabola has both.
+    /// Lowest and highest order that is expected where the gravity ramp slows down with the wall. What the ramp
+    /// leaves behind is of second order: it may exceed a first-order lag that nearly cancels, or reduce that lag by
+    /// up to a third at the fastest speed (which gives the order 1/2). The parabola covers both.
     pub(crate) const OF_RAMPS: (f64, f64) = (0.5, 2.0);
 
-    /// The words for expected orders.
+    /// Expected orders in words.
     pub fn range((lowest, highest): (f64, f64)) -> String {
         if lowest == highest {
             return lowest.to_string();
@@ -140,12 +141,12 @@ fn order(speeds: &[f64; 3], ratio: f64) -> Option<f64> {
 pub(super) const LARGEST_COORDINATE: f64 = 1.0 + 1.732_050_807_568_877_2;
 /// Half a unit of the seventeenth significant digit.
 const PRINTED: f64 = 0.5e-16;
-/// Largest sum of the magnitudes of the weights with which the slip onset follows from four rows: it comes two
-/// spacings after the last of them at most, 10 + 20 + 15 + 4; and the measured friction counts once more.
+/// Largest sum of the magnitudes of the weights that give the slip onset from four rows. The onset comes at most two
+/// spacings after the last row, with the weights 10, 20, 15 and 4; the measured friction counts once more.
 const ROW_WEIGHTS: f64 = 50.0;
 
-/// Extrapolates one estimator over the runs of a planned measurement, in the order of its cases, which take so many
-/// `steps` each. `None` if it is absent from any of them.
+/// Extrapolates one estimator over the runs of a planned measurement, in the order of its cases; `steps` are their
+/// numbers of steps. `None` if the estimator is absent from any run.
 pub fn extrapolate(
     estimates: &[YieldEstimates],
     steps: &[u64],
@@ -155,7 +156,7 @@ pub fn extrapolate(
     extrapolate_runs(&RunRoles::PLANNED, estimates, steps, stiffness, estimator)
 }
 
-/// The same over runs that play these `roles`.
+/// Like [`extrapolate`], over runs with these `roles`.
 pub(crate) fn extrapolate_runs(
     roles: &RunRoles,
     estimates: &[YieldEstimates],
@@ -167,7 +168,7 @@ pub(crate) fn extrapolate_runs(
     let all: Vec<Estimate> = estimates.iter().map(estimator).collect::<Option<_>>()?;
     let by_speed = all.get(..speeds.len())?;
     let change_from_middle = |run: usize| Some((all.get(run)?.force - all[MIDDLE_RUN].force).abs());
-    // A run that there should be, and is not, leaves no budget.
+    // A run that has a role but is missing leaves no budget.
     let change = |run: Option<usize>| match run {
         Some(run) => change_from_middle(run).map(Some),
         None => Some(None),
@@ -219,8 +220,8 @@ pub(crate) fn extrapolate_runs(
     })
 }
 
-/// Reads the force off the first of the runs, less what theory expects its wall speed to add: `added` in m g, to first
-/// order. What is left is of second order. `None` if a run that there should be shows no such force.
+/// Reads the force off the first run and subtracts `added`, what theory expects its wall speed to add to first order,
+/// in m g. What is left is of second order. `None` if a run that has a role shows no such force.
 pub(crate) fn at_one_speed(
     roles: &RunRoles,
     added: f64,
@@ -254,13 +255,13 @@ pub(crate) fn at_one_speed(
     })
 }
 
-/// Rounding of positions in so many `steps`, a random walk, as the estimator amplifies it.
+/// Rounding of positions over this many `steps`, a random walk, as the estimator amplifies it.
 fn round_off(estimate: &Estimate, steps: u64, stiffness: f64) -> f64 {
     let per_step = ROUNDING * LARGEST_COORDINATE * f64::EPSILON * stiffness;
     per_step * (steps as f64).sqrt() * estimate.sensitivity
 }
 
-/// Error of an `estimate` of `run` in m g by the last digit that the code prints.
+/// Error of an `estimate` of `run`, in m g, from the last digit that the code prints.
 fn printing(run: &YieldEstimates, estimate: &Estimate, stiffness: f64) -> f64 {
     run.printed.map_or(
         PRINTED * LARGEST_COORDINATE * stiffness * estimate.sensitivity,
@@ -274,8 +275,8 @@ pub(super) fn printing_error(printed: &PrintedDigits, estimate: &Estimate) -> f6
     ROW_WEIGHTS * printed.half_unit * (1.0 + 2.0 * estimate.sensitivity)
 }
 
-/// Change at vanishing wall speed of the straight line through the two faster runs with `others` at the same speeds in
-/// their place; `None` if one of these is missing.
+/// Change, at vanishing wall speed, of the straight line through the two faster runs when `others` at the same speeds
+/// take their place; `None` if one of `others` is missing.
 fn change_of_line(all: &[Estimate], others: [usize; 2]) -> Option<f64> {
     let straight_line = |runs: [usize; 2]| {
         let [fast, middle] = runs.map(|run| Some(all.get(run)?.force));
@@ -540,7 +541,7 @@ mod tests {
         let budget = slip.budget;
         assert!((slip.force - 10.1).abs() < 1e-12 && slip.first_order == slip.force);
         assert_eq!(slip.order, ConvergenceOrder::NOT_OBSERVED);
-        // 25 times the speed of what is taken off.
+        // 25 times the speed, times what is subtracted.
         assert!((budget.wall_speed - 0.0075).abs() < 1e-15);
         assert!((budget.time_step.unwrap() - 0.03).abs() < 1e-12);
         assert!((budget.preparation.unwrap() - 0.01).abs() < 1e-12);
@@ -554,7 +555,7 @@ mod tests {
         let peak = found(&roles, -0.3, Estimator::Peak).unwrap();
         assert!((peak.force - 11.7).abs() < 1e-12);
         assert!((peak.budget.wall_speed - 0.0075).abs() < 1e-15);
-        // No more than all of it is open, whatever the speed.
+        // At most all of it is uncertain, whatever the speed.
         let fast = RunRoles {
             speeds: [1.0; 3],
             ..roles
@@ -594,7 +595,8 @@ mod tests {
             run.slip.as_mut().unwrap().sensitivity = 3.0;
         }
         let result = extrapolate(&runs, &STEPS, 100.0, |run| run.slip).unwrap();
-        // 50 rows count, each off by half a unit of the wall force and of the margin three times two half units.
+        // The weights of rows sum to 50. Each counts half a unit of the wall force and, for the margin, three times
+        // two half units.
         let one_run = 50.0 * 7.0 * 1e-6;
         assert!((result.budget.print_precision / (5.0 * one_run) - 1.0).abs() < 1e-12);
         let rounded = round_off(&runs[2].slip.unwrap(), STEPS[2], 100.0);
@@ -605,7 +607,7 @@ mod tests {
 
     #[test]
     fn noise_allows_an_order_to_be_off_by_what_it_moves_a_logarithm() {
-        // Each of two differences of which the smaller is 0.1 may be off by 0.002.
+        // Each difference may be off by 0.002; the smaller one is 0.1.
         let order = ConvergenceOrder::of(&SPEEDS, &[10.4, 10.2, 10.1], 1e-3);
         let expected = 0.05 + 2.0 * 0.02 / 2f64.ln();
         assert!((order.allowance - expected).abs() < 1e-12);

@@ -26,8 +26,9 @@ pub struct YieldForce {
     pub peak: Option<Extrapolation>,
     /// The uncertainty of that peak, in m g.
     pub peak_uncertainty: Option<f64>,
-    /// F with its uncertainty, in m g: by slip onset; by the peak where there is none or where the force rises beyond
-    /// it; or by the peak of one run, less what its speed adds to first order, where the paper is followed literally.
+    /// F with its uncertainty, in m g. It is read off the slip onset; off the peak if there is no onset, or if the
+    /// force rises beyond it; or, where the paper is followed literally, off the peak of one run, less what its speed
+    /// adds to first order.
     pub force: Option<(f64, f64)>,
 }
 
@@ -97,8 +98,8 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// The yield force at vanishing wall speed, judged by slip onset, which the peak must not contradict. A stack that
-    /// began to slide under its own weight has no onset under the wall, and is judged by the peak.
+    /// Judges the yield force at vanishing wall speed by the slip onset, which the peak must not contradict. A stack
+    /// that began to slide under its own weight has no onset under the wall, and is judged by the peak.
     fn extrapolate(&mut self, reference: f64) {
         let measurement = self.measurement;
         let onset = measurement.limit.slip_onset;
@@ -138,9 +139,10 @@ impl<'a> Reader<'a> {
         self.hold_to_peak(&slip, &peak, peak_uncertainty, reference - onset);
     }
 
-    /// The yield force as the paper reads it, the peak at one wall speed, less what theory expects the speed to add to
-    /// first order. A second run, twice as fast, shows what is left of it: three times the part of second order. Where
-    /// theory knows no addition it is the peak, and its whole change counts.
+    /// Judges the yield force as the paper reads it: the peak at one wall speed, less what theory expects the speed
+    /// to add to first order. A second run, twice as fast, shows what is left: three times the second-order part.
+    /// Where theory does not know the addition, the force is the peak itself, and its whole change counts
+    /// [`TWO_GRIDS`] times.
     fn take_literally(&mut self, reference: f64) {
         let measurement = self.measurement;
         let peaks: Option<Vec<_>> = self.estimates.iter().map(|run| run.peak).collect();
@@ -231,7 +233,8 @@ impl<'a> Reader<'a> {
         printed.map(|printed| printed.digits).min()
     }
 
-    /// Digits that are missing are no error of the code. `uncertainty` in m g is what they leave open.
+    /// Adds a doubt if too few digits are printed, which is no error of the code. `uncertainty` is what the missing
+    /// digits leave open, in m g.
     fn doubt_few_digits(&mut self, uncertainty: f64, reference: f64) {
         let too_large = uncertainty > MAX_TOLERANCE * self.measurement.stack.floor_load(reference);
         if let Some(digits) = self.digits().filter(|_| too_large) {
@@ -241,7 +244,7 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// Arms that were not measured well enough are no error of the code.
+    /// Adds a doubt if arms were not measured well enough, which is no error of the code.
     fn doubt_measured_arms(&mut self, reference: f64) {
         let open = self.measurement.convention_uncertainty.unwrap_or(0.0);
         if open > MAX_TOLERANCE * self.measurement.stack.floor_load(reference) {
@@ -267,7 +270,7 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// Why there is no onset of slip in one of the runs.
+    /// Says why one of the runs has no onset of slip.
     fn missing_onset(&self) -> String {
         let mut departures = (1..).zip(&self.estimates);
         let departure = departures.find_map(|(run, estimates)| Some((run, estimates.departure?)));
@@ -283,9 +286,10 @@ impl<'a> Reader<'a> {
         )
     }
 
-    /// Cylinders that slip on each other before the floor slips end the equilibrium before the onset that is
-    /// extrapolated. They have not where they carry more afterwards than they needed. Where the force rises on after the
-    /// onset, equilibrium does not end, and the slip of the cylinders would bend the path before it.
+    /// Adds a doubt if the cylinders may slip on each other before the floor slips, which would end the equilibrium
+    /// before the extrapolated onset. They have not slipped if they later carry more friction than they needed until
+    /// then. Where the force rises on after the onset, equilibrium does not end there, and a slip of the cylinders
+    /// would bend the path before it.
     fn doubt_pair_friction(&mut self) {
         let limit = &self.measurement.limit;
         let Some(needed) = limit.pair_friction.filter(|_| !limit.rises_after_onset()) else {
@@ -301,7 +305,8 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// Every run must obey mechanics, and begin at the state of rest that theory gives.
+    /// Requires every run to obey mechanics, and those that differ in wall speed to begin at the state of rest that
+    /// theory gives.
     fn hold_to_mechanics(&mut self) {
         let runs = &self.finding.runs;
         self.grounds
@@ -318,7 +323,7 @@ impl<'a> Reader<'a> {
         ) else {
             return;
         };
-        // Runs with the same bits in spite of another ramp are doubted as such: they tell no shift.
+        // Runs with the same bits despite another ramp show no shift; they get a doubt of their own.
         if begun.contains(&hastened) {
             return;
         }
@@ -344,7 +349,8 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// Accuracy of the state of rest, in r: that of the limit, the rounding of every step, and that of printing.
+    /// Accuracy of the state of rest, in r: the sum of those of the limit, of the rounding of every step, and of
+    /// printing.
     fn rest_accuracy(&self) -> f64 {
         let steps = self
             .measurement
@@ -356,8 +362,8 @@ impl<'a> Reader<'a> {
             + self.printed_coordinate()
     }
 
-    /// Rounding of coordinates that are printed with few digits, in r: half a unit in the start, and twice that in its
-    /// shift, which counts twice.
+    /// Rounding of coordinates that are printed with few digits, in r: half a unit in the start, and a whole unit in
+    /// the shift, which counts twice.
     fn printed_coordinate(&self) -> f64 {
         let printed = self.estimates.iter().filter_map(|run| run.printed);
         let half_units = printed.map(|printed| 25.0 * libm::exp10(-f64::from(printed.digits)));
@@ -368,10 +374,11 @@ impl<'a> Reader<'a> {
         self.finding.runs.get(self.measurement.roles.short_ramp?)
     }
 
-    /// `found` with bounds in place of the parts of its budget that no run shows. Of the time step it is what two steps of
-    /// the wall load: positions and forces are a step late at most. Of the preparation it is how far the starts are from
-    /// rest. At one speed neither what is left of the touch of the wall nor the rounding of its steps is extrapolated away.
-    /// `None` where nothing is planned.
+    /// Returns `found` with bounds in place of the parts of its budget that no run shows. The bound for the time step
+    /// is the load of two steps of the wall: positions and forces are a step late at most. The bound for the
+    /// preparation is the distance of the starts from rest. At one speed, neither what is left of the touch of the
+    /// wall nor the rounding of its steps is extrapolated away, so that both are added. `None` where nothing is
+    /// planned.
     fn bounded(
         &self,
         mut found: Extrapolation,
@@ -403,7 +410,7 @@ impl<'a> Reader<'a> {
         Some(found)
     }
 
-    /// The largest distance of a start from the state of rest, in r; `None` where one of them is not known.
+    /// The largest distance of a start from the state of rest, in r; `None` if that state or a start is not known.
     fn off_rest(&self) -> Option<f64> {
         let rest = self.measurement.limit.rest?;
         let mut starts = self.finding.runs.iter().map(|run| run.start);
@@ -414,8 +421,8 @@ impl<'a> Reader<'a> {
         })
     }
 
-    /// Nothing is decided by a deviation that an unknown part of the budget may explain, and nothing agrees where the bound
-    /// of a part is too large.
+    /// Adds doubts about the budget: a deviation that an unknown part may explain decides nothing, and nothing agrees
+    /// if the bound of a part is too large.
     fn doubt_unknown_parts(&mut self, budget: &Budget, reference: f64) {
         let most = MAX_TOLERANCE * self.measurement.stack.floor_load(reference);
         if self.measurement.method == Method::AtOneSpeed && budget.wall_speed > most {
@@ -467,9 +474,9 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// What the extrapolation of a peak leaves open where the force rises on to it after the onset: the runs overshoot it by
-    /// an amount whose order in the wall speed changes as they begin to resolve the rise, so that all that is extrapolated
-    /// counts, and more where the order is far from the expected one.
+    /// Extra uncertainty of an extrapolated peak to which the force rises on after the onset. The runs overshoot it
+    /// by an amount whose order in the wall speed changes as they begin to resolve the rise. Therefore all that is
+    /// extrapolated counts, and more if the order is far from the expected one.
     fn overshoot(&self, peak: &Extrapolation) -> f64 {
         let slowest = self.estimates.get(SPEEDS.len() - 1);
         let slowest = slowest.and_then(|run| run.peak).map(|peak| peak.force);
@@ -490,7 +497,7 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// Onset and peak must be `rise` apart.
+    /// Adds a doubt unless onset and peak are `rise` apart, within their uncertainties.
     fn hold_to_peak(
         &mut self,
         slip: &Extrapolation,
@@ -528,13 +535,14 @@ impl<'a> Reader<'a> {
     }
 }
 
-/// Damping along the gravity ramp leaves the stack away from rest by an amount that falls with the duration of the ramp,
-/// so that half of it shifts the start by at least as much as the whole is away from rest; twice that is allowed, as the
-/// fastest run needs where ramps slow down with the wall: its ramp is the halved one. A run is held to the shift among the
-/// others, since its own start is in question.
+/// Allowed distance of a start from rest, as a multiple of the shift among the other runs. Damping along the gravity
+/// ramp leaves the stack away from rest by an amount that falls with the duration of the ramp, so that halving the
+/// ramp shifts the start by at least as much as the whole ramp leaves it away from rest. Twice that is allowed,
+/// because the fastest run needs it where ramps slow down with the wall: its ramp is the halved one. A run is held to
+/// the shift among the others, since its own start is in question.
 const SAFETY_OF_REST: f64 = 2.0;
 
-/// Time steps by which what a run shows may be late.
+/// Time steps by which the readings of a run may be late.
 const STEPS_LATE: f64 = 2.0;
 
 /// Note on rows without an onset under the wall.
@@ -549,18 +557,19 @@ const ROUGH_TOUCH: &str = "the wall touches the stack so fast that the floor sli
 /// V&V 20, section 2-4.1; P. J. Roache, J. Fluids Eng. 116, 405 (1994)).
 const TWO_GRIDS: f64 = 3.0;
 
-/// Part of the way that a coordinate from 2 to 4, which the height of cylinder 1 and of the wall is, may be off by rounding:
-/// it is much the same in every step.
+/// Relative error of a step of the wall from rounding, which is much the same in every step: the heights of cylinder
+/// 1 and of the wall are coordinates from 2 to 4.
 fn step_rounding(protocol: &Protocol) -> f64 {
     const LARGEST: f64 = f64::EPSILON;
     LARGEST / (protocol.wall_speed * protocol.time_step)
 }
 
-/// A friction measured this close, relatively, to the one asked for is the same: codes cap the force at
-/// μ n itself, some through tan(atan μ), so that only roundings of 1e-16 are between them.
+/// A measured friction this close, relatively, to the one asked for is the same: codes cap the force at μ n itself,
+/// some through tan(atan μ), so that only roundings of 1e-16 separate them.
 const SAME_FRICTION: f64 = 1e-9;
 
-/// With fewer digits a force changes in steps of a hundredth of itself, between which it may rise and fall.
+/// Fewest digits that show a yield: with fewer, a force changes in steps of a hundredth of itself, between which it
+/// may rise and fall.
 const DIGITS_TO_SEE_A_YIELD: u32 = 4;
 
 #[cfg(test)]
@@ -572,7 +581,7 @@ mod tests {
     use crate::study::Verdict;
     use crate::study::yield_force::plan::plan_literal;
 
-    /// The runs of `measurement` by the native DEM, on a floor whose friction is so many times the one asked for.
+    /// The runs of `measurement` by the native DEM, on a floor with `friction` times the friction asked for.
     fn runs(measurement: &Measurement, friction: f64) -> Vec<RunSummary> {
         let cases = measurement.cases.iter();
         let runs = cases.map(|case| {
@@ -612,7 +621,7 @@ mod tests {
         }
         assert_eq!(judged(&off).0, Verdict::Differs);
         assert_eq!(judged(&runs(&measurement, 1.001)).0, Verdict::Differs);
-        // Without what theory adds, nothing is decided.
+        // If theory does not know what the speed adds, nothing is decided.
         let unknown = Measurement {
             speed_excess: None,
             ..measurement.clone()

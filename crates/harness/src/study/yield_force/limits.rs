@@ -6,8 +6,8 @@ use crate::theory::{Limit, limit_uncertainty, quasistatic_limit};
 use std::collections::BTreeMap;
 use std::sync::{Mutex, PoisonError};
 
-/// By how much the limit of `stack` may be off because arms of `code` were measured; `None` where all of them are
-/// declared, or nothing yields.
+/// Uncertainty of the limit of `stack` from those arms of `code` that were measured; `None` if all arms are declared,
+/// or nothing yields.
 pub(super) fn convention_uncertainty(
     code: &SettledCode,
     stack: &Stack,

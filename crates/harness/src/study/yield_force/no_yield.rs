@@ -23,7 +23,7 @@ fn accepted(range: Option<(f64, f64)>) -> String {
 }
 
 impl NoYield {
-    /// The floor friction as the wrong value of a case file.
+    /// The refusal as an error about the floor friction in a case file.
     pub fn as_value(&self) -> InvalidValue {
         let Self { reason, range, .. } = self;
         let accepted = format!(

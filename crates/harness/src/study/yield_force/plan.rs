@@ -19,38 +19,39 @@ use crate::theory::{Limit, LimitCurve, SpeedExcess};
 const TIME_STEP: f64 = 0.1;
 /// Duration of the gravity ramp of all runs but one.
 pub(super) const RAMP_TIME: f64 = 100.0;
-/// How many times as long a ramp takes that is applied to contacts without stiffness when they just touch: their first
-/// overlaps follow slowly, and what the dampers keep of that falls with the duration.
+/// Factor on the duration of the ramp for contacts without stiffness when they just touch (Hertz): their first
+/// overlaps lag behind, and what the dampers keep of that lag falls with the duration.
 const SOFT_RAMP: f64 = 10.0;
-/// Duration of the rest after it, in time scales of the stack.
+/// Duration of the rest after the ramp, in time scales of the stack.
 pub(crate) const REST_TIME: f64 = 100.0;
-/// The same for spheres: oscillations that the ramp leaves behind then fall below rounding, so that a start is at rest
-/// without a bound that depends on their phase.
+/// The same for spheres. Oscillations that the ramp leaves behind then fall below rounding, so that no bound on a
+/// start has to depend on their phase.
 const REST_TIME_OF_SPHERES: f64 = 300.0;
-/// Duration of the ramp over that of the compression, where the limit depends on the ramp, or oscillations that it leaves
-/// behind hardly die away: what it leaves, of second order in its speed, is then small beside the lag of the compression,
-/// which is of first order.
+/// Ratio of the duration of the ramp to that of the compression, where the limit depends on the ramp, or oscillations
+/// that it leaves behind hardly die away. What the ramp leaves is of second order in its speed, and then small beside
+/// the lag of the compression, which is of first order.
 const SLOW_RAMP: f64 = 4.0;
 /// Rows before the fine ones.
 const COARSE_ROWS: f64 = 60.0;
 const FINE_INTERVAL: f64 = 2.0;
 /// Fraction of the predicted wall travel to the slip onset from which rows are fine.
 const FINE_FROM: f64 = 0.98;
-/// Fraction of the predicted wall travel to the peak that is run in any case …
+/// Travel that is run in any case, as a multiple of the predicted wall travel to the peak.
 const TRAVEL_MARGIN: f64 = 1.05;
-/// … and the time added to it: the force peaks some ten time units after the slip, at any speed.
+/// Time added to that travel: the force peaks some ten time units after the slip, at any speed.
 const TIME_MARGIN: f64 = 80.0;
-/// Stiffness from which that time grows; the stiffest stack of the paper's figure 2(a) is below it.
+/// Stiffness from which [`TIME_MARGIN`] grows; the stiffest stack of the paper's figure 2(a) is below it.
 const STIFF: f64 = 2e4;
 /// Longest duration of a compression that is slowed down for a gentle touch, or for an onset long before the peak:
 /// 2.9 × 10⁶ steps.
 const LONGEST_COMPRESSION: f64 = 2.9e5;
 
-/// Largest factor by which the wall is faster at first in shortened runs with springs that nothing turns. In a step they
-/// are stretched along one direction, while the contact turns by an angle that grows with the speed.
+/// Largest initial speed-up of the wall in shortened runs with springs that do not turn with their contacts. In a
+/// step such springs are stretched along one direction, while the contact turns by an angle that grows with the
+/// speed.
 const FACTOR_OF_KEPT_DIRECTIONS: f64 = 3.0;
-/// Drop of the wall force at which shortened runs with springs that nothing turns end. While a stack collapses, their |q|/a
-/// grows slower than b/a, and rows must show that the cylinders carry more than at the onset of slip.
+/// Drop of the wall force at which shortened runs with such springs end. While a stack collapses, their |q|/a grows
+/// slower than b/a, and rows must show that the cylinders carry more than at the onset of slip.
 const DROP_THAT_SHOWS_FRICTION: f64 = 0.5;
 
 /// Wall speed of the paper, in r √(k_n/m) (supplement I.C).
@@ -73,19 +74,18 @@ pub struct Measurement {
     pub limit: Limit,
     /// Distance of that limit from the one under the paper's convention, relative to F + 3.
     pub model_form: Option<f64>,
-    /// By how much the limit may be off because arms were measured and not declared, in m g; absent where all are
-    /// declared.
+    /// Uncertainty of the limit, in m g, from arms that were measured and not declared; absent if all are declared.
     pub convention_uncertainty: Option<f64>,
-    /// What the wall adds per speed in r √(k_n/m), in m g, to first order; absent where it is not known, or not needed
-    /// because the speed is extrapolated.
+    /// What a moving wall adds to the force to first order, in m g per unit of speed in r √(k_n/m); absent if it is
+    /// not known, or not needed because the speed is extrapolated.
     pub speed_excess: Option<SpeedExcess>,
     /// How its yield force is read.
     pub method: Method,
-    /// Whether no wall of its runs touches so fast that the floor slides for a moment; a run slow enough for
-    /// that may take too long.
+    /// Whether the wall touches so gently in every run that the floor does not slide for a moment; a run slow enough
+    /// for that may take too long.
     pub is_gentle: bool,
-    /// One case per wall speed; where the speed is extrapolated, one with a coarse time step and one with a
-    /// short gravity ramp as well, and where springs remember forces another one with a coarse time step. None where
+    /// One case per wall speed. Where the speed is extrapolated, also one with a coarse time step and one with a
+    /// short gravity ramp, and, where springs remember forces, another one with a coarse time step. Empty where
     /// nothing yields.
     pub cases: Vec<Case>,
     /// Which run is which.
@@ -145,9 +145,9 @@ impl Measurement {
         Some(found)
     }
 
-    /// The same with shortcuts in every run, and the two faster runs once more without, which show the effect of the
-    /// shortcuts. The wall still touches gently, and is faster by the same factor in every run, so that its error
-    /// vanishes with the speed like the rest.
+    /// Returns the measurement with shortcuts in every run, and with the two faster runs repeated without them, which
+    /// shows the effect of the shortcuts. The wall still touches gently, and is faster by the same factor in every
+    /// run, so that its error vanishes with the speed like the rest.
     ///
     /// Literal measurements, and those of codes without shortcuts, are unchanged.
     #[must_use]
@@ -182,7 +182,7 @@ impl Measurement {
     }
 }
 
-/// Plans the measurement of `stack` with `code` under `convention`, its yield force to be read by `method`.
+/// Plans the measurement of `stack` with `code` under `convention`, whose yield force is read by `method`.
 pub(crate) fn planned(
     code: &SettledCode,
     stack: &Stack,
@@ -273,7 +273,8 @@ fn planned_protocols(
     Some(protocols)
 }
 
-/// The usual time step, halved until twice of it is stable: below κ = 0.375 tangential springs are too stiff for it.
+/// The usual time step, halved until twice that step is stable: below κ = 0.375 tangential springs are too stiff for
+/// it.
 fn stable_time_step(stack: &Stack, convention: &ContactConvention) -> f64 {
     let longest = stack.longest_time_step(convention);
     let mut time_step = TIME_STEP;
@@ -288,12 +289,12 @@ fn literal_protocols(limit: &Limit) -> Option<Vec<Protocol>> {
     protocols.into_iter().collect()
 }
 
-/// The displacement by which wall speeds are measured: z at the predicted slip onset, or the predicted travel of
-/// the wall where that is smaller, so that no onset comes too soon after the start, over the time scale of the stack at
-/// rest; less where the fastest
-/// wall would make the floor slide at its first touch, as far as the slowest run stays affordable; more where that
-/// takes a peak far beyond the onset. The peak takes the place of an onset under own weight. `None` where nothing
-/// yields.
+/// The displacement by which wall speeds are measured: z at the predicted slip onset or, where that is smaller, the
+/// predicted travel of the wall, so that no onset comes too soon after the start; divided by the time scale of the
+/// stack at rest. For a stack that slides under its own weight the peak takes the place of the onset. The
+/// displacement is less where the fastest wall would make the floor slide at its first touch, as far as the slowest
+/// run stays affordable. It is more where a run to a peak far beyond the onset would otherwise not be affordable.
+/// `None` where nothing yields.
 pub(super) fn speed_scale(
     limit: &Limit,
     stack: &Stack,
@@ -357,8 +358,8 @@ fn preparation(limit: &Limit, ramp_time: f64) -> Preparation {
     }
 }
 
-/// Duration of the gravity ramp of a run with this wall speed. A limit that depends on the preparation is approached only
-/// if that slows down with the wall.
+/// Duration of the gravity ramp of a run with this wall speed. A limit that depends on the preparation is approached
+/// only if the ramp slows down with the wall.
 pub(crate) fn ramp_time(limit: &Limit, wall_speed: f64) -> f64 {
     let is_soft = limit.time_scale > 1.0;
     let usual = RAMP_TIME * limit.time_scale * if is_soft { SOFT_RAMP } else { 1.0 };
@@ -434,7 +435,7 @@ mod tests {
         assert_eq!(coarse, fast);
     }
 
-    /// The recorded runs depend on it: their plans are from before the touch of the wall was looked at.
+    /// The recorded runs depend on this: they were planned before the touch of the wall was taken into account.
     #[test]
     fn walls_of_the_figure_are_gentle_as_they_are() {
         let profile = crate::study::yield_force::Profile::Standard;

@@ -10,11 +10,11 @@ pub const PAPER_STIFFNESSES: [f64; 3] = [1e2, 1e3, 1e4];
 /// Frictions of the quick profile.
 const QUICK_FRICTIONS: [f64; 6] = [0.12, 0.2, 0.25, CRITICAL_FRICTION, 0.3, 0.4];
 
-/// Frictions of spheres in units of the critical one: from well above the own weight of three to below those at which the
-/// stack of three loses its symmetry before it yields, with the arms of most codes.
+/// Frictions of spheres in units of the critical one: from well above what the own weight of a stack of three needs,
+/// to below those at which that stack loses its symmetry before it yields with the arms of most codes.
 const SPHERE_FRICTIONS: [f64; 6] = [0.45, 0.6, 0.75, 0.93, 1.0, 1.1];
 
-/// Frictions of the paper's Fig. 2(a), from a little above the stack's own weight to a little below wall
+/// Frictions of the paper's Fig. 2(a), from a little above what the stack's own weight needs to a little below wall
 /// contact, closer around the critical one.
 const FIGURE_FRICTIONS: [f64; 25] = [
     0.1,
@@ -44,8 +44,8 @@ const FIGURE_FRICTIONS: [f64; 25] = [
     0.5,
 ];
 
-/// The point at which codes other than native run the paper's literal settings: that of its own convergence
-/// figure (supplement I.C).
+/// Floor friction and stiffness at which codes other than native run the paper's literal settings: those of its own
+/// convergence figure (supplement I.C).
 const LITERAL_STACK: (f64, f64) = (0.2, 1e4);
 
 /// The stacks that a crosscheck covers.
@@ -55,16 +55,16 @@ pub enum Profile {
     Quick,
     /// The paper's figure 2(a): 25 frictions at its three stiffnesses.
     Standard,
-    /// The same as the paper made it, by the peak at wall speed 1e-6 and time step 1e-3; external codes at
-    /// mu = 0.2, stiffness 1e4 alone.
+    /// The same stacks, measured as the paper did, by the peak at wall speed 1e-6 and time step 1e-3; external codes
+    /// at mu = 0.2, stiffness 1e4 alone.
     Paper,
-    /// The same by every code: days of one core for an external one (docs/cluster.md).
+    /// The same with all stacks for every code: days of one core for an external one (docs/cluster.md).
     Literal,
 }
 
 impl Profile {
-    /// The stacks with so many bodies on the floor, stiffness by stiffness. Laws other than the paper's have those of the
-    /// quick profile, and spheres its frictions in units of the critical one.
+    /// The stacks with this many bodies on the floor, stiffness by stiffness. Laws other than the paper's have those
+    /// of the quick profile, and spheres its frictions in units of the critical one.
     pub fn stacks(self, power: Power, bodies: u8) -> Vec<Stack> {
         let of = |floor_friction, stiffness| Stack {
             stiffness_ratio: Stack::usual_stiffness_ratio(power),
@@ -84,13 +84,13 @@ impl Profile {
             .collect()
     }
 
-    /// The measurements of its stacks by each of the `codes`, stack by stack.
+    /// The measurements of all stacks of the profile by each of the `codes`, stack by stack.
     pub fn measurements(self, codes: &[SettledCode]) -> Vec<Measurement> {
         let power = Power::Linear;
         self.measurements_of(&self.stacks(power, PAPER_BODIES), codes, power)
     }
 
-    /// The measurement of `stack` by `code` in its way, by a law of this power.
+    /// The measurement of `stack` by `code` with the method of the profile, under a law of this power.
     pub fn measurement(self, code: &SettledCode, stack: &Stack, power: Power) -> Measurement {
         let convention = code.stack_convention(power, stack.bodies);
         match self {
@@ -99,7 +99,7 @@ impl Profile {
         }
     }
 
-    /// Measurements of other `stacks` in its way, by a law of this power.
+    /// The measurements of other `stacks` with the method of the profile, under a law of this power.
     pub fn measurements_of(
         self,
         stacks: &[Stack],

@@ -1,4 +1,4 @@
-//! The numbers of a row: what its judgement holds, by their names in tables.
+//! The numbers of a row, under their names in tables.
 
 use super::extrapolate::Extrapolation;
 use super::judgement::Judgement;
@@ -58,8 +58,8 @@ impl Judgement {
         is_expected && !self.grounds.is_contradicted()
     }
 
-    /// (slip onset − exact onset)/(exact onset + 3), or the same of the peak where that is judged; `None` where
-    /// nothing is.
+    /// (slip onset − exact onset)/(exact onset + 3), or the same for the peak if that is judged; `None` if nothing is
+    /// judged.
     pub fn error(&self) -> Option<f64> {
         self.grounds.deviation().map(|(error, _)| error)
     }
@@ -69,7 +69,7 @@ impl Judgement {
         self.grounds.deviation().map(|(_, tolerance)| tolerance)
     }
 
-    /// The summary of each run, in the order of the cases; none if one of them is missing.
+    /// The summary of each run, in the order of the cases; empty if one of them is missing.
     pub fn runs(&self) -> &[RunSummary] {
         self.finding.as_ref().map_or(&[], |finding| &finding.runs)
     }

@@ -1,4 +1,4 @@
-//! The yield force of a few series that nobody has planned.
+//! The yield force of a few series that were made without a plan.
 
 use super::budget::Budget;
 use super::judgement::YieldForce;
@@ -17,7 +17,7 @@ use crate::theory::limit_uncertainty;
 /// Time in which the touch of a wall has died away: overshoots come within 20.
 const TOUCH: f64 = 20.0;
 
-/// In what the runs at different wall speeds differ.
+/// Role of the runs that differ in their wall speed.
 const WALL_SPEED: &str = "wall speed";
 
 /// A series with what is known of its run.
@@ -27,7 +27,7 @@ pub struct SeriesInput {
     pub name: String,
     /// The series.
     pub series: Series,
-    /// Time step, as its times say.
+    /// Time step, read off its times.
     pub time_step: f64,
     /// Wall speed.
     pub wall_speed: f64,
@@ -47,11 +47,11 @@ pub struct FoundSeries {
 /// Series of one stack, judged.
 #[derive(Debug, Clone)]
 pub struct JudgedSeries {
-    /// The measurement that they are taken for.
+    /// The measurement that they are judged as.
     pub measurement: Measurement,
     /// The series that are extrapolated, and those that make parts of the budget known.
     pub used: Vec<FoundSeries>,
-    /// Faster ones, which are read alone.
+    /// Faster series, which are read but not extrapolated.
     pub faster: Vec<FoundSeries>,
     /// The yield force.
     pub finding: YieldForce,
@@ -67,8 +67,8 @@ impl JudgedSeries {
     }
 }
 
-/// Position of the run with which `--coarse-step` and `--short-ramp` are compared, among so many runs at other wall speeds,
-/// fastest first: the middle one of the three slowest, or the slowest of fewer.
+/// Position of the run that `--coarse-step` and `--short-ramp` are compared with, among this many runs at different
+/// wall speeds, fastest first: the middle one of the three slowest, or the slowest if there are fewer.
 pub fn compared_run(speeds: usize) -> usize {
     match speeds.checked_sub(SPEEDS.len()) {
         Some(faster) => faster + MIDDLE_RUN,
@@ -76,10 +76,11 @@ pub fn compared_run(speeds: usize) -> usize {
     }
 }
 
-/// Judges series of `stack` at different wall speeds, fastest first, under `convention`: extrapolates the three slowest, or
-/// reads the slowest of fewer, for which theory must know what its speed adds. `coarse` is a run with twice the time step of
-/// [`compared_run`], `hastened` one with half the gravity ramp. Arms that were measured have an `arm_uncertainty`. `None`
-/// where nothing yields, and where theory does not know what it must.
+/// Judges series of `stack` at different wall speeds, fastest first, under `convention`: extrapolates the three
+/// slowest or, if there are fewer, reads the slowest alone, for which theory must know what its speed adds. `coarse`
+/// is a run with twice the time step of [`compared_run`], `hastened` one with half the gravity ramp.
+/// `arm_uncertainty` is that of measured arms. `None` if nothing yields, or if theory does not know what the speed
+/// adds.
 pub fn judge_series(
     stack: &Stack,
     convention: ContactConvention,
@@ -124,7 +125,7 @@ pub fn judge_series(
     })
 }
 
-/// The measurement that `used` are taken for. Its code is the one that accepts every convention.
+/// The measurement that `used` are judged as. Its code is the native one, which accepts every convention.
 fn measurement(
     stack: &Stack,
     convention: ContactConvention,
@@ -165,7 +166,7 @@ fn measurement(
     })
 }
 
-/// What `input` shows. How it began is not known.
+/// The summary of `input`, a run whose beginning is not known.
 fn summary(
     stack: &Stack,
     convention: ContactConvention,
@@ -187,7 +188,7 @@ fn summary(
         series: input.series.clone(),
         provenance: Provenance::now(identity, String::new(), Vec::new(), steps, 0.0),
     });
-    // A wall that touches in the first row has moved the stack by then.
+    // A wall that touches in the first row has already moved the stack.
     let touches = input.series.samples().first();
     if touches.is_some_and(|row| row.wall_force > 0.0) {
         summary.start = None;
@@ -196,7 +197,7 @@ fn summary(
     summary
 }
 
-/// The protocol as far as the series tells it, after a preparation as in a planned run.
+/// The protocol as far as the series shows it, with the preparation of a planned run.
 fn protocol(input: &SeriesInput, ramp_time: f64) -> Protocol {
     let samples = input.series.samples();
     let last = samples.last().map_or(0.0, |last| last.time);
@@ -220,8 +221,8 @@ fn protocol(input: &SeriesInput, ramp_time: f64) -> Protocol {
 }
 
 impl SeriesInput {
-    /// The wall speed that the series shows, with its uncertainty: from the growth of the overlap with the `wall` of
-    /// this law, and the motion of cylinder 1. `None` where it does not show any.
+    /// The wall speed that the series shows, with its uncertainty, from the growth of the overlap with the `wall` of
+    /// this law and from the motion of cylinder 1. `None` if it shows none.
     pub fn shown_speed(&self, wall: &ContactLaw, stack: &Stack) -> Option<(f64, f64)> {
         let samples = self.series.samples();
         let touching = samples.iter().position(|row| row.wall_force > 0.0)?;
@@ -235,7 +236,8 @@ impl SeriesInput {
         let overlap = |row: &Sample| wall.overlap(row.wall_force);
         let travel = (overlap(highest) - overlap(settled)) - (height(highest) - height(settled));
         let speed = travel / duration;
-        // What damping and ringing do to the force at either end, at most the travel in the time of a touch.
+        // The uncertainty is what damping and ringing do to the force at either end: at most the travel in the time
+        // of a touch.
         let known = duration > 0.0 && speed.is_finite();
         known.then_some((speed, TOUCH / duration * self.wall_speed))
     }

@@ -6,15 +6,16 @@ use crate::series::{Law, Mechanics};
 
 /// Distance by which one sphere is displaced, small enough for its effect to stay linear.
 const DISTURBANCE: f64 = 1e-9;
-/// Largest growth of a disturbance that leaves a run symmetric: rounding disturbs a run by some 1e-15 r, and a symmetric
-/// one is held to 1e-10 r and more ([`Mechanics`]).
+/// Largest growth of a disturbance that leaves a run symmetric. Rounding disturbs a run by some 1e-15 r, and a
+/// symmetric run is held to 1e-10 r or more ([`Mechanics`]).
 const MOST_GROWTH: f64 = 1e4;
 
-/// Why the limit of the symmetric stack cannot be reached by the run of `case`: its symmetry is lost before the floor slips, from
-/// whatever rounding leaves, in the native code under the same convention. `None` where it can.
+/// Says why the run of `case` cannot reach the limit of the symmetric stack: in the native code under the same
+/// convention, its symmetry is lost before the floor slips, from whatever rounding leaves. `None` if it can.
 ///
-/// A ring whose spheres roll along it, and the top sphere against them, moves without stretching a spring. Torque arms that end
-/// inside the overlap make the load drive that motion, the faster the larger load and overlap are.
+/// If the spheres of a ring roll along it, and the top sphere against them, they move without stretching a spring.
+/// With torque arms that end inside the overlap, the load drives that motion, the faster the larger load and overlap
+/// are.
 pub(super) fn lost_before_yield(case: &Case) -> Option<String> {
     if case.stack.bodies == PAPER_BODIES {
         return None;

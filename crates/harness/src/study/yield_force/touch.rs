@@ -4,19 +4,20 @@ use crate::dem::compress_stack;
 use crate::model::{Case, ContactConvention, Preparation, Protocol, Sampling, Stack};
 use crate::series::Sample;
 
-/// The native DEM touches the settled stack at this speed, in units of ε …
+/// Wall speed of the trial, in which the native DEM touches the settled stack, in units of ε.
 const TRIAL_SPEED: f64 = 1.0;
-/// … and is watched for so long: the overshoot comes within 10, for κ = 50 within 20.
+/// Time for which the trial is watched: the overshoot comes within 10, for κ = 50 within 20.
 const TRIAL_TIME: f64 = 60.0;
 const TRIAL_TIME_STEP: f64 = 0.1;
-/// Every step is looked at: near the speed at which the floor slides, e/d lies above μ for two or three steps only.
+/// Interval between the rows of the trial, a single step: near the speed at which the floor slides, e/d lies above μ
+/// for two or three steps only.
 const TRIAL_INTERVAL: f64 = TRIAL_TIME_STEP;
-/// Nothing slides in the trial.
+/// Friction of the trial, at which nothing slides.
 const NO_LIMIT: f64 = 1e3;
-/// Part of the largest speed that is still gentle. Displacements are small, but not infinitely so, and
-/// integrators differ.
+/// Part of the computed speed that counts as gentle: displacements are small, but not infinitely so, and integrators
+/// differ.
 const MARGIN: f64 = 0.9;
-/// Planned speeds have six digits.
+/// Allowance for the rounding of planned speeds to six digits.
 const LEAST_DIGITS: f64 = 1.0 + 1e-5;
 
 /// The largest wall speed, in r √(k_n/m), whose first touch does not make the floor slide; infinite where no
@@ -28,11 +29,11 @@ const LEAST_DIGITS: f64 = 1.0 + 1e-5;
 /// its displacement, by which the yield force changes for good, and no extrapolation in the speed removes it:
 /// +5 × 10⁻⁵ of F at κ = 1.2, 1/ε = 10⁵, μ = 0.35 and speeds of 18, 35 and 70 ε.
 ///
-/// Displacements are small in the touch, so that the forces are those at rest and a part linear in the speed.
-/// One trial without sliding thus tells at which v the ratio |e₀ + v e₁(t)|/(d₀ + v d₁(t)) reaches μ.
+/// Displacements are small in the touch, so that the forces are those at rest plus a part linear in the speed. One
+/// trial without sliding therefore tells at which v the ratio |e₀ + v e₁(t)|/(d₀ + v d₁(t)) reaches μ.
 pub fn max_touch_speed(stack: &Stack, convention: &ContactConvention) -> f64 {
     let trial = trial(stack, convention);
-    // Where not even the trial stays finite there is no gentle speed.
+    // If not even the trial stays finite, no speed is gentle.
     let Ok(series) = compress_stack(&trial, || true) else {
         return 0.0;
     };
@@ -68,7 +69,8 @@ pub(super) fn is_gentle(wall_speed: f64, stack: &Stack, convention: &ContactConv
         || wall_speed <= LEAST_DIGITS * max_touch_speed(stack, convention)
 }
 
-/// At half a weight m g per unit time the overshoot of e/d is lost in its own growth.
+/// Whether a wall of this speed is gentle without a trial: at half a weight m g per unit time the overshoot of e/d is
+/// lost in the growth of e/d itself.
 pub(super) fn is_surely_gentle(wall_speed: f64, stack: &Stack) -> bool {
     wall_speed <= 0.5 * stack.epsilon()
 }

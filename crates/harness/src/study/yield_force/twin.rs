@@ -1,4 +1,4 @@
-//! Measures round-off: the same runs by a build of the code that computes with more digits.
+//! Measures round-off: repeats runs with a build of the code that computes with more digits.
 
 use super::extrapolate::Estimator;
 use super::plan::Measurement;

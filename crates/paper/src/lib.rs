@@ -1,4 +1,4 @@
-//! The paper, arXiv:2511.06807: what it says, claim by claim, what it did, done again, and what its authors published.
+//! The paper, arXiv:2511.06807: its claims, a reproduction of its runs, and the data that its authors published.
 
 pub mod claims;
 pub mod published;

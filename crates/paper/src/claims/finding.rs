@@ -42,7 +42,7 @@ pub(crate) struct Finding {
 }
 
 impl Finding {
-    /// A deviation held to `bound`.
+    /// Holds a deviation to `bound`.
     pub(crate) fn new(deviation: f64, bound: f64, evidence: impl Into<String>) -> Self {
         Self {
             deviation,
@@ -51,17 +51,17 @@ impl Finding {
         }
     }
 
-    /// A statement that is true or false.
+    /// Judges a statement that is true or false.
     pub(crate) fn statement(holds: bool, evidence: impl Into<String>) -> Self {
         Self::new(violation(holds), 0.0, evidence)
     }
 
-    /// A statement without exceptions, and the number of them that were found.
+    /// Judges a statement that allows no exceptions, by the number of those that were found.
     pub(crate) fn exceptions(count: usize, evidence: impl Into<String>) -> Self {
         Self::new(count as f64, 0.0, evidence)
     }
 
-    /// An identity: relative deviations of its two sides at several points.
+    /// Judges an identity by the relative deviations of its two sides at several points.
     pub(crate) fn identity(deviations: impl IntoIterator<Item = f64>, compared: &str) -> Self {
         let deviations: Vec<f64> = deviations.into_iter().collect();
         let count = deviations.len();
@@ -75,7 +75,7 @@ impl Finding {
         Self::new(largest, ROUND_OFF, evidence)
     }
 
-    /// The verdict, where the words of the claim allow a deviation up to `allowed`.
+    /// Derives the verdict, where the words of the claim allow a deviation up to `allowed`.
     pub(crate) fn verdict(&self, allowed: Option<f64>) -> ClaimVerdict {
         if self.deviation <= self.bound {
             ClaimVerdict::Holds
@@ -87,7 +87,7 @@ impl Finding {
     }
 }
 
-/// The larger of two deviations; one that is not a number is the largest of all.
+/// Returns the larger of two deviations; NaN counts as larger than any number.
 fn worse(left: f64, right: f64) -> f64 {
     if left.is_nan() || right.is_nan() {
         f64::NAN
@@ -96,18 +96,18 @@ fn worse(left: f64, right: f64) -> f64 {
     }
 }
 
-/// The largest of all deviations; not a number if there are none.
+/// Returns the largest of all deviations, or NaN if there are none.
 pub(crate) fn worst(deviations: impl IntoIterator<Item = f64>) -> f64 {
     let largest = deviations.into_iter().reduce(worse);
     largest.unwrap_or(f64::NAN)
 }
 
-/// 0 where a condition holds, 1 where it does not.
+/// Returns 0 if a condition holds, else 1.
 pub(crate) fn violation(holds: bool) -> f64 {
     if holds { 0.0 } else { 1.0 }
 }
 
-/// Distance of a sum from zero, relative to its largest term.
+/// Returns the distance of a sum from zero, relative to its largest term.
 pub(crate) fn imbalance(terms: &[f64]) -> f64 {
     let largest = terms
         .iter()
@@ -115,7 +115,7 @@ pub(crate) fn imbalance(terms: &[f64]) -> f64 {
     (terms.iter().sum::<f64>() / largest).abs()
 }
 
-/// |left/right − 1|.
+/// Returns |left/right − 1|.
 pub(crate) fn relative(left: f64, right: f64) -> f64 {
     (left / right - 1.0).abs()
 }

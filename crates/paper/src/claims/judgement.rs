@@ -1,4 +1,4 @@
-//! From a claim to its verdict.
+//! Judges claims.
 
 use super::checks;
 use super::finding::{ClaimVerdict, Finding};
@@ -16,11 +16,11 @@ pub struct ClaimJudgement {
     pub verdict: ClaimVerdict,
     /// The quantities compared and their values, or the reason why there are none.
     pub evidence: String,
-    /// What the verdict rests on; `None` of an untestable claim.
+    /// Deviation and bound behind the verdict; `None` for an untestable claim.
     pub measure: Option<Measure>,
-    /// The verdict on the same statement by the published data; `None` without them, or where they say nothing about it.
+    /// The verdict on the same statement by the published data; `None` without them, or if they say nothing about it.
     pub as_published: Option<FoundVerdict>,
-    /// Correction; only where it has been checked to hold.
+    /// Correction, if a check has shown that it holds.
     pub erratum: Option<String>,
 }
 
@@ -31,7 +31,7 @@ pub struct FoundVerdict {
     pub verdict: ClaimVerdict,
     /// The quantities compared and their values.
     pub evidence: String,
-    /// What the verdict rests on.
+    /// Deviation and bound behind the verdict.
     pub measure: Measure,
 }
 
@@ -87,7 +87,7 @@ fn judge_claim(claim: &Claim, paper: &PaperTheory, runs: Option<&Reproduction>) 
     }
 }
 
-/// The finding of the claim's check, or the reason why there is none.
+/// Returns the finding of the claim's check, or the reason why there is none.
 fn examine(
     claim: &Claim,
     paper: &PaperTheory,
@@ -100,7 +100,7 @@ fn examine(
     check.run(paper, runs)
 }
 
-/// The corrected form, if one is needed and holds.
+/// Returns the corrected form, if one is needed and the check holds with it.
 fn erratum(
     claim: &Claim,
     paper: &PaperTheory,

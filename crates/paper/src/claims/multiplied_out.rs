@@ -1,6 +1,6 @@
 //! The elastic equation as a polynomial in z and ε.
 
-/// The elastic equation multiplied out, with r = 1: the coefficient of ε^j z^k at `[k][j]`, that of z⁵ being 1.
+/// Multiplies out the elastic equation, with r = 1. Returns the coefficient of ε^j z^k at `[k][j]`; that of z⁵ is 1.
 ///
 /// Follows from T = tan(ψ/2) = μ z/(z − ε) and z − ε = G(T) with the small-displacement path
 /// G = (T² + 2√3 T − 1)/(T (1 + T²)(1 + κ(1 + T²))) (docs/theory.md, Eqs. 12, 14 and 67).

@@ -9,17 +9,17 @@ pub(crate) const FRICTION: &str = r"\mu";
 /// TeX of κ.
 pub(crate) const RATIO: &str = r"\kappa";
 
-/// TeX of a measured `value`, with so many `digits` after the point: `1.2\times10^{-5}`.
+/// Writes a measured `value` in TeX, with `digits` digits after the point: `1.2\times10^{-5}`.
 pub fn scientific(value: f64, digits: usize) -> String {
     power_of_ten(&format!("{value:.digits$e}"))
 }
 
-/// TeX of a given `value` in as few digits as it has, up to ten: `10^{-6}`, `0.25`, and μ_c by its name.
+/// Writes a given `value` in TeX with as few digits as it has, up to ten: `10^{-6}`, `0.25`, and μ_c by its name.
 pub fn number(value: f64) -> String {
     if value == CRITICAL_FRICTION {
         return r"\mu_c".to_owned();
     }
-    // Sums like 0.1 + 0.38 have a seventeenth digit.
+    // Sums such as 0.1 + 0.38 have a seventeenth digit.
     let value: f64 = format!("{value:.9e}").parse().unwrap_or(value);
     let scientific = format!("{value:e}");
     let is_power = scientific.trim_start_matches('-').starts_with("1e");
@@ -31,7 +31,7 @@ pub fn number(value: f64) -> String {
     }
 }
 
-/// `text` with its words that are numbers in scientific notation, such as 1.03e-5, as TeX between dollar signs.
+/// Returns `text` with numbers in scientific notation, such as 1.03e-5, as TeX between dollar signs.
 pub fn powers_in_tex(text: &str) -> String {
     let words = text.split(' ').map(|word| {
         let number = word.trim_end_matches([',', ';', '.', ':']);
@@ -44,7 +44,7 @@ pub fn powers_in_tex(text: &str) -> String {
     words.collect::<Vec<_>>().join(" ")
 }
 
-/// TeX of a number in Rust's scientific notation. A mantissa of 1 without further digits is left out.
+/// Converts a number in Rust's scientific notation to TeX. A mantissa of 1 without further digits is left out.
 fn power_of_ten(scientific: &str) -> String {
     let Some((mantissa, exponent)) = scientific.split_once('e') else {
         return format!(r"\mathrm{{{scientific}}}");
@@ -61,12 +61,12 @@ fn power_of_ten(scientific: &str) -> String {
     }
 }
 
-/// A relative change with its sign: `$+0.86$ %`.
+/// Writes a relative change with its sign: `$+0.86$ %`.
 pub(crate) fn percent(change: f64, digits: usize) -> String {
     format!("${:+.digits$}$ %", 100.0 * change)
 }
 
-/// The items as in a sentence: "a, b and c".
+/// Joins the items as in a sentence: "a, b and c".
 pub fn list(items: impl IntoIterator<Item = String>) -> String {
     let mut items: Vec<String> = items.into_iter().collect();
     match items.pop() {
@@ -75,7 +75,7 @@ pub fn list(items: impl IntoIterator<Item = String>) -> String {
     }
 }
 
-/// The values of a quantity, by its TeX: `$\mu = 0.25$, $\mu_c$ and $0.3$`.
+/// Lists the values of a quantity, which `name` gives in TeX: `$\mu = 0.25$, $\mu_c$ and $0.3$`.
 pub fn values(name: &str, values: &[f64]) -> String {
     let numbered = values.iter().enumerate();
     list(numbered.map(|(index, &value)| match index {
@@ -84,14 +84,14 @@ pub fn values(name: &str, values: &[f64]) -> String {
     }))
 }
 
-/// The range of the values of a quantity, by its TeX: `$\mu = 0.1$ to $0.7$`.
+/// Writes the range of the values of a quantity, which `name` gives in TeX: `$\mu = 0.1$ to $0.7$`.
 pub(crate) fn range(name: &str, values: &[f64]) -> String {
     let lowest = values.iter().copied().fold(f64::INFINITY, f64::min);
     let highest = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
     format!("${name} = {}$ to ${}$", number(lowest), number(highest))
 }
 
-/// Measured values of one kind with so many `digits` after the point: `$0.280$, $0.300$ and $0.400$`.
+/// Lists measured values of one kind with `digits` digits after the point: `$0.280$, $0.300$ and $0.400$`.
 pub(crate) fn fixed(values: impl IntoIterator<Item = f64>, digits: usize) -> String {
     list(
         values
@@ -100,20 +100,20 @@ pub(crate) fn fixed(values: impl IntoIterator<Item = f64>, digits: usize) -> Str
     )
 }
 
-/// Measured values of one kind in scientific notation.
+/// Lists measured values of one kind in scientific notation.
 pub(crate) fn powers(values: impl IntoIterator<Item = f64>, digits: usize) -> String {
     let values = values.into_iter();
     list(values.map(|value| format!("${}$", scientific(value, digits))))
 }
 
-/// The friction and the stiffness of a stack: `$\mu = 0.2$, $k_n r/mg = 10^2$`.
+/// Writes the friction and the stiffness of a stack: `$\mu = 0.2$, $k_n r/mg = 10^2$`.
 pub(crate) fn stack(stack: &Stack) -> String {
     let friction = number(stack.floor_friction);
     let stiffness = number(stack.stiffness);
     format!(r"$\mu = {friction}$, $k_n r/mg = {stiffness}$")
 }
 
-/// A deviation in words. Round-off is not spelled out, because its digits differ between machines.
+/// Writes a deviation, or that it is below `bound`: the digits of round-off differ between machines.
 pub(crate) fn size(deviation: f64, bound: f64) -> String {
     if deviation <= bound {
         format!("below ${}$", scientific(bound, 0))

@@ -35,7 +35,7 @@ pub struct Erratum {
 }
 
 impl Erratum {
-    /// The corrected paper; `None` if it has no constant of a name.
+    /// Returns the corrected paper; `None` if `set` names a constant that the paper does not have.
     pub fn apply(&self, paper: &PaperTheory) -> Option<PaperTheory> {
         let mut set = self.set.iter();
         set.try_fold(paper.clone(), |paper, (name, &value)| {
@@ -43,8 +43,8 @@ impl Erratum {
         })
     }
 
-    /// The corrected form with the constants of the `corrected` paper in place; `None` if it has no constant of a
-    /// name.
+    /// Returns the corrected form with the constants of the `corrected` paper in place; `None` if it names a constant
+    /// that does not exist.
     pub fn words(&self, corrected: &PaperTheory) -> Option<String> {
         let parts = self.text.split('@').enumerate();
         let words = parts.map(|(index, part)| match index % 2 {
@@ -72,11 +72,11 @@ impl Erratum {
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Allowance {
-    /// The largest one, in the check's own measure.
+    /// The largest allowed deviation, in the check's own measure.
     pub size: f64,
-    /// What it is a part of, or counted in.
+    /// What `size` is a part of, or counted in.
     pub of: String,
-    /// Why the words allow as much.
+    /// Why the words allow that much.
     pub because: String,
 }
 
@@ -101,7 +101,7 @@ pub struct Claim {
     pub allowed: Option<Allowance>,
     /// The reason why it cannot be tested.
     pub untestable: Option<String>,
-    /// Anchors of the figures and tables of the report with its numbers, such as `figure-scaling`.
+    /// Anchors of the report's figures and tables that show its numbers, such as `figure-scaling`.
     #[serde(default)]
     pub see: Vec<String>,
     /// Correction, if the claim does not hold as printed.
@@ -112,7 +112,7 @@ pub struct Claim {
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Register {
-    /// In the order of the paper.
+    /// The claims, in the order of the paper.
     #[serde(rename = "claim")]
     pub claims: Vec<Claim>,
 }
@@ -135,13 +135,13 @@ fn invalid(key: &str, value: impl ToString, accepted: impl Into<String>) -> Inva
     }
 }
 
-/// The names of constants that are accepted.
+/// Describes the constants that are accepted.
 fn a_constant() -> String {
     format!("a constant of the paper: {}", PaperTheory::NAMES.join(", "))
 }
 
 impl Register {
-    /// The claims of the paper.
+    /// Reads the claims of the paper.
     pub fn paper() -> Result<Self, RegisterError> {
         Self::from_toml(TEXT, FILE)
     }

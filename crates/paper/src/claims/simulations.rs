@@ -1,4 +1,5 @@
-//! What the paper's statements on its simulations are checked with: native runs, or the data that the authors have published.
+//! The data against which the paper's statements on its simulations are checked: native runs, or what the authors
+//! have published.
 
 use super::notation::{number, scientific};
 use crate::code::Code;
@@ -7,11 +8,11 @@ use crate::published::Published;
 use crate::reproduction::{FITTED_FROM, ForceSeries, Reproduction, slope};
 use crate::study::yield_force::{Judgement, PAPER_TIME_STEP, PAPER_WALL_SPEED};
 
-/// Yield forces and a series of the wall force, by whoever made them.
+/// Yield forces and a series of the wall force, from native runs or from the published data.
 pub(crate) struct Simulations {
-    /// Who, at the beginning of evidence.
+    /// Who made them, as the beginning of evidence.
     pub who: &'static str,
-    /// How the yield forces were read, with a comma before it.
+    /// How the yield forces were read, with a leading comma.
     pub read: &'static str,
     /// Fig. 2(a): floor friction, stiffness and F.
     pub over_friction: Vec<[f64; 3]>,
@@ -25,9 +26,9 @@ pub(crate) struct Simulations {
     pub time_steps: Vec<(f64, f64)>,
     /// f(t).
     pub series: ForceSeries,
-    /// Where the peak of f(t) stands, if not in its rows, with a space before it.
+    /// Where the peak of f(t) stands, if not in its rows, with a leading space.
     pub peak_source: String,
-    /// Whether speeds and time steps are labels: the program that made them has the units √(g r) and √(r/g).
+    /// Whether speeds and time steps are only labels: the program that made them has the units √(g r) and √(r/g).
     labelled: bool,
 }
 
@@ -39,12 +40,12 @@ pub(crate) struct FittedExponent {
     pub exponent: f64,
     /// The slope of the exact limit over the same stiffnesses.
     pub exact: f64,
-    /// What the uncertainties of the forces can do to it, where they are known.
+    /// Uncertainty that follows from those of the forces, where they are known.
     pub uncertainty: Option<f64>,
 }
 
 impl Simulations {
-    /// The native runs of a reproduction.
+    /// Takes the native runs of a reproduction.
     pub fn native(runs: &Reproduction) -> Self {
         let native = |code: &Code| code.is_native();
         let exponents = runs.exponents.iter().filter(|own| native(&own.code));
@@ -77,7 +78,7 @@ impl Simulations {
         }
     }
 
-    /// The data that the authors have published.
+    /// Takes the data that the authors have published.
     pub fn published(published: &Published) -> Self {
         let forces = |figure| -> Vec<[f64; 3]> {
             let own = published.of_figure(figure);
@@ -129,7 +130,7 @@ impl Simulations {
         }
     }
 
-    /// What the settings of runs of a stack are, if they are labels, with a semicolon before it.
+    /// Explains the settings of runs of a stack if they are labels, with a leading semicolon.
     pub fn labels(&self, stack: &Stack) -> String {
         if !self.labelled {
             return String::new();
@@ -141,8 +142,8 @@ impl Simulations {
     }
 }
 
-/// The first of the published series, and where its peak stands: its rows lie so far apart that they miss it, but Fig. 2(a) has
-/// a force of the same stack. Without rows where there is no series.
+/// Returns the first published series and says where its peak stands: the rows lie so far apart that they miss it,
+/// but Fig. 2(a) has a force of the same stack. Without a published series there are no rows.
 fn series(published: &Published) -> (ForceSeries, String) {
     let own = published.series.first().map(|own| &own.published);
     let rows = own.map_or(&[][..], |own| &own.rows);
@@ -174,7 +175,7 @@ fn series(published: &Published) -> (ForceSeries, String) {
     (series, source.unwrap_or_default())
 }
 
-/// Friction, stiffness and yield force of the native rows that have one.
+/// Returns friction, stiffness and yield force of the native rows that have one.
 fn forces(judgements: &[Judgement]) -> Vec<[f64; 3]> {
     let native = judgements.iter().filter(|row| row.code.is_native());
     let forces = native.filter_map(|row| Some([row.mu(), row.stiffness(), row.yield_force()?]));

@@ -32,12 +32,12 @@ const NEWTON_STEPS: usize = 12;
 /// Residual of the equilibrium, relative to the floor force, at which Newton's method has converged.
 const CONVERGED: f64 = 1e-11;
 
-/// z-component of the cross product in the plane.
+/// Returns the z-component of the cross product in the plane.
 fn cross(left: Vector2<f64>, right: Vector2<f64>) -> f64 {
     left.x * right.y - left.y * right.x
 }
 
-/// `normal` turned by −90°.
+/// Returns `normal` turned by −90°.
 pub(crate) fn turned(normal: Vector2<f64>) -> Vector2<f64> {
     Vector2::new(normal.y, -normal.x)
 }
@@ -62,7 +62,7 @@ impl From<Vector4<f64>> for Forces {
     }
 }
 
-/// Force and torque on cylinder 2, and the vertical force on 1, for c = 0 and torque arms r.
+/// Returns force and torque on cylinder 2, and the vertical force on 1, for c = 0 and torque arms r.
 fn imbalance(forces: &Forces, normal: Vector2<f64>, f: f64, weight: f64) -> Vector4<f64> {
     let on_upper = normal * forces.a + turned(normal) * forces.b;
     let floor = Vector2::new(-forces.e, forces.d);
@@ -82,8 +82,8 @@ pub(crate) struct Balanced {
     pub(crate) forces: Forces,
 }
 
-/// The stack in equilibrium under `f` when cylinder 1 lies in the direction `normal` from cylinder 2; `None` if there
-/// are no such forces.
+/// Solves for the equilibrium under `f` when cylinder 1 lies in the direction `normal` from cylinder 2; returns
+/// `None` if there are no such forces.
 pub(crate) fn equilibrium(normal: Vector2<f64>, f: f64, weight: f64) -> Option<Balanced> {
     let under = |forces: Vector4<f64>| imbalance(&forces.into(), normal, f, weight);
     let loads = under(Vector4::zeros());
@@ -111,41 +111,41 @@ pub(crate) struct Displacements {
 }
 
 impl Displacements {
-    /// Centre of cylinder 1; without displacements the cylinders just touch.
+    /// Returns the centre of cylinder 1; without displacements the cylinders just touch.
     pub(crate) fn upper(&self) -> Vector2<f64> {
         let rise = (4.0 * RADIUS * RADIUS - RADIUS * RADIUS).sqrt();
         Vector2::new(0.0, RADIUS + rise - self.delta_11)
     }
 
-    /// Centre of cylinder 2.
+    /// Returns the centre of cylinder 2.
     pub(crate) fn lower(&self) -> Vector2<f64> {
         Vector2::new(RADIUS + self.delta_22, RADIUS - self.delta_21)
     }
 
-    /// Direction from 2 to 1.
+    /// Returns the direction from 2 to 1.
     pub(crate) fn normal(&self) -> Vector2<f64> {
         (self.upper() - self.lower()).normalize()
     }
 
-    /// Motion of the surface of 1 relative to that of 2 at their contact.
+    /// Returns the motion of the surface of 1 relative to that of 2 at their contact.
     pub(crate) fn surface_gap(&self) -> Vector2<f64> {
         let arm = self.normal() * RADIUS;
         let upper = Vector2::new(0.0, -self.delta_11);
         upper - self.lower_surface(arm)
     }
 
-    /// Motion of the point of 2 at `arm` from its centre.
+    /// Returns the motion of the point of 2 at `arm` from its centre.
     fn lower_surface(&self, arm: Vector2<f64>) -> Vector2<f64> {
         let centre = Vector2::new(self.delta_22, -self.delta_21);
         centre + Vector2::new(-arm.y, arm.x) * self.theta
     }
 
-    /// Motion of the point of 2 on the floor.
+    /// Returns the motion of the point of 2 on the floor.
     pub(crate) fn floor_point(&self) -> Vector2<f64> {
         self.lower_surface(Vector2::new(0.0, -RADIUS))
     }
 
-    /// The forces of linear springs on these displacements.
+    /// Returns the forces of linear springs on these displacements.
     pub(crate) fn spring_forces(&self, ratio: f64) -> Forces {
         let normal = self.normal();
         let gap = self.surface_gap();
@@ -222,7 +222,7 @@ impl YieldState {
         SVector::from([balance[0], balance[1], balance[2], balance[3], slip])
     }
 
-    /// Weight of a cylinder.
+    /// Returns the weight of a cylinder.
     pub(crate) fn weight(&self) -> f64 {
         self.epsilon * RADIUS * NORMAL_STIFFNESS
     }
@@ -258,7 +258,7 @@ impl YieldState {
     }
 }
 
-/// Yield states over the paper's range of μ and ε, and beyond it in κ. They do not depend on the printed
+/// Returns yield states over the paper's range of μ and ε, and beyond it in κ. They do not depend on the printed
 /// constants.
 pub(crate) fn yield_states() -> &'static [YieldState] {
     static STATES: LazyLock<Vec<YieldState>> = LazyLock::new(solve_everywhere);
@@ -275,7 +275,7 @@ fn solve_everywhere() -> Vec<YieldState> {
     states
 }
 
-/// Every value of `left` with every one of `right`.
+/// Pairs every value of `left` with every one of `right`.
 pub(crate) fn pairs<const M: usize, const N: usize>(
     left: [f64; M],
     right: [f64; N],
@@ -284,7 +284,7 @@ pub(crate) fn pairs<const M: usize, const N: usize>(
         .flat_map(move |left| right.into_iter().map(move |right| (left, right)))
 }
 
-/// A stack of any stiffness ratio κ.
+/// Returns a stack of any stiffness ratio κ.
 pub(crate) fn stack(friction: f64, ratio: f64, epsilon: f64) -> Stack {
     Stack {
         stiffness_ratio: ratio,
@@ -292,22 +292,22 @@ pub(crate) fn stack(friction: f64, ratio: f64, epsilon: f64) -> Stack {
     }
 }
 
-/// z of the elastic equation, in r; not a number without a solution.
+/// Returns z of the elastic equation, in r, or NaN if it has no solution.
 pub(crate) fn elastic_displacement(stack: &Stack) -> f64 {
     elastic_root(stack).map_or(f64::NAN, |root| root.z)
 }
 
-/// The exact quasi-static limit of the paper's DEM.
+/// Returns the exact quasi-static limit of the paper's DEM.
 fn paper_limit(stack: &Stack) -> Limit {
     quasistatic_limit(stack, &ContactConvention::PAPER)
 }
 
-/// F of the DEM's exact quasi-static limit; not a number if the stack does not yield.
+/// Returns F of the DEM's exact quasi-static limit, or NaN if the stack does not yield.
 pub(crate) fn yield_force(stack: &Stack) -> f64 {
     paper_limit(stack).yield_force.unwrap_or(f64::NAN)
 }
 
-/// The stacks of Fig. 2(a) between μ = 0.1 and 0.5, and F + 3 of the DEM's exact quasi-static limit.
+/// Returns the stacks of Fig. 2(a) between μ = 0.1 and 0.5, each with F + 3 of the DEM's exact quasi-static limit.
 pub(crate) fn figure_loads() -> &'static [(Stack, f64)] {
     static LOADS: LazyLock<Vec<(Stack, f64)>> = LazyLock::new(|| {
         let stacks = PAPER_STIFFNESSES.into_iter().flat_map(|stiffness| {

@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 
 /// Where the public versions keep their figures.
 const LAYOUTS: [&str; 2] = ["", "figures"];
-/// Where they may keep the program's own results, and the states from which it starts.
+/// Where they may keep the program, its own results, and the states from which it starts.
 const PROGRAMS: [&str; 2] = ["src", "src/compress"];
 const LARGEST_FILE: u64 = 16 << 20;
 
@@ -30,18 +30,18 @@ impl Printed {
         Some(Self { value, decimals })
     }
 
-    /// Half a unit of its last digit.
+    /// Returns half a unit of its last digit.
     pub fn half_unit(&self) -> f64 {
         0.5 * 0.1f64.powi(self.decimals as i32)
     }
 
-    /// Whether `value` is printed so.
+    /// Returns whether `value`, printed with as many digits after the point, is this number.
     pub fn is(&self, value: f64) -> bool {
         format!("{value:.*}", self.decimals).parse() == Ok(self.value)
     }
 }
 
-/// What the rows of a data file are.
+/// The quantity in the rows of a data file.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Subject {
     /// Yield forces at a stiffness, by friction.
@@ -51,7 +51,7 @@ pub enum Subject {
     },
     /// Yield forces at a friction, by stiffness.
     Stiffnesses {
-        /// μ, as the name of the file has it.
+        /// μ, from the name of the file.
         friction: f64,
     },
     /// Yield forces of one stack, by time step.
@@ -73,7 +73,7 @@ pub struct DataFile {
     pub subject: Subject,
     /// The comments at its head.
     pub head: Vec<String>,
-    /// Its rows, each with its line.
+    /// Its rows, each with its line number.
     pub rows: Vec<(usize, [Printed; 2])>,
 }
 
@@ -82,14 +82,15 @@ pub struct DataFile {
 pub struct Checkout {
     /// The data files, by path.
     pub files: Vec<DataFile>,
-    /// The states from which runs start, by the push A of the side walls in their names; velocities in √(g r) and √(g/r).
+    /// The states from which runs start, by the push A of the side walls in their names; velocities are in √(g r) and
+    /// √(g/r).
     pub starts: BTreeMap<String, GivenStart>,
-    /// The sources of the programs, by their paths below the checkout; none where it has the data alone.
+    /// The sources of the programs, by their paths below the checkout; empty if it has the data alone.
     pub programs: BTreeMap<String, String>,
 }
 
 impl Checkout {
-    /// Whether the checkout of any public version is in `directory`.
+    /// Returns whether `directory` holds a checkout of any public version.
     pub fn is_in(directory: &Path) -> bool {
         layout(directory).is_some()
     }
@@ -140,7 +141,7 @@ impl Checkout {
     }
 }
 
-/// Where the figures of the checkout in `directory` are.
+/// Returns the folder of the figures within the checkout in `directory`.
 fn layout(directory: &Path) -> Option<&'static str> {
     let has_figures = |layout: &&str| directory.join(layout).join("fig2a/data").is_dir();
     LAYOUTS.into_iter().find(has_figures)
@@ -170,7 +171,7 @@ impl DataFile {
     }
 }
 
-/// What the file of this name in this folder holds; `None` of files that are no results of the program.
+/// Returns what the file of this name in this folder holds; `None` if it is not a result of the program.
 fn subject(folder: &Path, name: &str) -> Option<Subject> {
     let figure = folder.iter().rev().nth(1)?.to_str()?;
     match figure {
@@ -189,11 +190,11 @@ fn subject(folder: &Path, name: &str) -> Option<Subject> {
     }
 }
 
-/// The state in the two files named after `push`.
+/// Reads the state from the two files named after `push`.
 fn start(folder: &Path, push: &str) -> Result<GivenStart, FileError> {
     let places = table::<6>(&folder.join(format!("init_p_A{push}.txt")), 3)?;
     let springs = table::<3>(&folder.join(format!("init_deltat_A{push}.txt")), 8)?;
-    // The program counts left, right, top.
+    // The program numbers the cylinders left, right, top.
     let order = [2, 1, 0];
     Ok(GivenStart {
         places: order.map(|body| [0, 1, 2].map(|column| places[body][column])),
@@ -203,7 +204,7 @@ fn start(folder: &Path, push: &str) -> Result<GivenStart, FileError> {
     })
 }
 
-/// The rows of a file of numbers.
+/// Reads a file of numbers, which must have this many `rows`.
 fn table<const COLUMNS: usize>(path: &Path, rows: usize) -> Result<Vec<[f64; COLUMNS]>, FileError> {
     let text = text(path)?;
     let lines = text.lines().enumerate();
@@ -234,7 +235,7 @@ fn text(path: &Path) -> Result<String, FileError> {
     String::from_utf8(bytes).map_err(|_| FileError::content(path, "is no text"))
 }
 
-/// The names in a folder, sorted; none of a folder that is not there.
+/// Returns the names in a folder, sorted; none if the folder does not exist.
 fn names(folder: &Path) -> Result<Vec<String>, FileError> {
     if !folder.is_dir() {
         return Ok(Vec::new());
@@ -247,7 +248,7 @@ fn names(folder: &Path) -> Result<Vec<String>, FileError> {
     Ok(names)
 }
 
-/// The text between a beginning and an end.
+/// Returns the text between a beginning and an end; `None` without them.
 fn between<'a>(text: &'a str, beginning: &str, end: &str) -> Option<&'a str> {
     text.strip_prefix(beginning)?.strip_suffix(end)
 }

@@ -1,42 +1,42 @@
-//! What data files, their heads, the program and the paper give for one thing, compared with each other.
+//! Compares what data files, their heads, the program and the paper say about the same quantity.
 
 use super::checkout::{Checkout, DataFile, Subject};
 use super::points::{PAPER_SETTINGS, PublishedForce};
 use crate::model::{CRITICAL_FRICTION, PAPER_STIFFNESS_RATIO};
 
-/// Where a number stands, and the number.
+/// A number, and where it stands.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Quotation {
     /// File and line, or place in the paper.
     pub source: String,
     /// The number.
     pub value: f64,
-    /// The number as it is printed there; three digits of one that is computed.
+    /// The number as it is printed there; with three digits if it is computed.
     pub printed: String,
 }
 
-/// Two numbers for one thing that do not fit together.
+/// Two numbers for the same quantity that do not agree.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Contradiction {
-    /// What they are numbers of, with its unit.
+    /// The quantity, with its unit.
     pub what: String,
-    /// The two.
+    /// The two numbers.
     pub quoted: [Quotation; 2],
-    /// What made the difference, where that is known.
+    /// Why they differ, where that is known.
     pub because: String,
-    /// What is added to both before they are compared: the weight of the stack, 3 m g, of forces, else nothing.
+    /// Added to both numbers before they are compared: the weight of the stack, 3 m g, for forces, else 0.
     lift: f64,
 }
 
 impl Contradiction {
-    /// The second number less the first, relative to the first; of forces, to F + 3.
+    /// Returns the second number less the first, relative to the first; for forces, relative to F + 3.
     pub fn size(&self) -> f64 {
         let [first, second] = self.quoted.each_ref().map(|own| own.value);
         (second - first) / (first + self.lift)
     }
 }
 
-/// A number that somebody gives for something.
+/// A number that one source gives for a quantity.
 struct Statement {
     what: String,
     quoted: Quotation,
@@ -48,7 +48,7 @@ struct Statement {
     lift: f64,
 }
 
-/// What the supplement says of all runs (Secs. I A and I C).
+/// What the supplement gives for all runs (Secs. I A and I C).
 const SUPPLEMENT: [(&str, f64); 5] = [
     (RESTITUTION, 0.7),
     (RATIO, PAPER_STIFFNESS_RATIO),
@@ -62,8 +62,8 @@ const CYLINDER_FRICTION: &str = "friction of the cylinders";
 const SPEED: &str = "wall speed of the yield forces, in the unit of the paper";
 const STEP: &str = "time step of the yield forces, in the unit of the paper";
 
-/// All pairs of numbers of one thing that differ by more than their printed digits allow; of each thing, one pair for every
-/// number that differs from the first.
+/// Returns the numbers for one quantity that differ by more than their printed digits allow: each number that differs
+/// from the first of its quantity, paired with that one.
 pub(super) fn contradictions(checkout: &Checkout, forces: &[PublishedForce]) -> Vec<Contradiction> {
     let mut statements = of_supplement();
     statements.extend(of_program(checkout));
@@ -120,7 +120,7 @@ fn of_supplement() -> Vec<Statement> {
         .collect()
 }
 
-/// The constants of the program, where the checkout has it.
+/// Returns the constants of the program, where the checkout has it.
 fn of_program(checkout: &Checkout) -> Vec<Statement> {
     let mut statements = Vec::new();
     for (path, text) in &checkout.programs {
@@ -147,7 +147,7 @@ fn of_program(checkout: &Checkout) -> Vec<Statement> {
     statements
 }
 
-/// The name of a file against the parameter in its head.
+/// Returns the parameter in the name of a file and the one in its head.
 fn of_head(file: &DataFile) -> Vec<Statement> {
     let what = match file.subject {
         Subject::Stiffnesses { .. } => format!("floor friction in {}", file.path),
@@ -175,8 +175,8 @@ fn of_head(file: &DataFile) -> Vec<Statement> {
     std::iter::once(named).chain(said).collect()
 }
 
-/// Wall speed and time step that give the forces of a file, in the paper's units: of each file those that are farthest from what
-/// the supplement says of all.
+/// Returns the wall speed and the time step that give the forces of each file, in the paper's units. If a file has
+/// several, the one farthest from the supplement's value stands for it.
 fn of_settings(forces: &[PublishedForce]) -> Vec<Statement> {
     let mut statements: Vec<Statement> = Vec::new();
     for own in forces {
@@ -217,7 +217,7 @@ fn of_settings(forces: &[PublishedForce]) -> Vec<Statement> {
     statements
 }
 
-/// A number with at most three digits.
+/// Writes a number with at most three digits.
 fn short(value: f64) -> String {
     let rounded: f64 = format!("{value:.2e}").parse().unwrap_or(value);
     match (1e-2..1e3).contains(&rounded.abs()) {
@@ -229,7 +229,7 @@ fn short(value: f64) -> String {
 fn of_force(published: &PublishedForce) -> Statement {
     let stack = &published.stack;
     let [speed, step] = published.labelled;
-    // The friction with the digits of the files.
+    // Rounded to the digits that the files give.
     let friction = libm::round(1e6 * stack.floor_friction) / 1e6;
     let settings = match published.labelled {
         PAPER_SETTINGS => String::new(),

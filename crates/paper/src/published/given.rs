@@ -1,4 +1,5 @@
-//! A case file with a given start, which is run as the authors' program runs: for stacks that they have not published.
+//! Case files with a given start, which are run as the authors' program runs, for stacks that they have not
+//! published.
 
 use super::points::{RESTITUTION, WALL_STARTS, run, wall_height};
 use crate::dem::{ForceSampling, GivenStart, LaneWidth, PublishedForces, PublishedRun};
@@ -9,9 +10,9 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 use std::path::Path;
 
-/// Most steps of a run: some days.
+/// Largest number of steps of a run, which takes some days.
 const MOST_STEPS: f64 = 1e11;
-/// Most rows of f(t).
+/// Largest number of rows of f(t).
 const MOST_ROWS: f64 = 1e6;
 
 /// A compression from a given start, as the program behind the paper's figures makes it. Lengths are in r, times in √(r/g),
@@ -50,7 +51,7 @@ fn wall_starts() -> f64 {
     WALL_STARTS
 }
 
-/// What the run of a case with a given start shows.
+/// Result of running a case with a given start.
 #[derive(Debug, Clone, PartialEq)]
 pub struct GivenOutcome {
     /// The case.
@@ -59,14 +60,14 @@ pub struct GivenOutcome {
     pub stack: Stack,
     /// The wall force before its first decrease, in m g; `None` if it never falls before the end.
     pub yield_force: Option<f64>,
-    /// The exact limit of the stack with springs that nothing turns, in m g; `None` where it has none.
+    /// The exact limit of the stack with springs that do not turn with the contact, in m g; `None` if it has none.
     pub limit: Option<f64>,
     /// Times in √(r/g), and the wall force in m g.
     pub rows: Vec<(f64, f64)>,
 }
 
 impl GivenCase {
-    /// Reads a case with a given start; `None` of a case that is prepared, or of what is no case.
+    /// Reads a case with a given start; returns `None` for a case that is prepared, or a file that is not a case.
     ///
     /// # Errors
     /// If the file cannot be read, has a start and is malformed otherwise, or has a value out of its range.
@@ -74,7 +75,7 @@ impl GivenCase {
         Self::parse(&case_content(path)?, path)
     }
 
-    /// The same from the content of the file at `path`.
+    /// Does the same with the content of the file at `path`.
     ///
     /// # Errors
     /// As [`Self::read`].
@@ -88,12 +89,12 @@ impl GivenCase {
         Ok(Some(case))
     }
 
-    /// The stack.
+    /// Returns the stack.
     pub fn stack(&self) -> Stack {
         self.stack.in_law(Power::Linear)
     }
 
-    /// Every value in its range, or the first one that is not.
+    /// Checks that every value is in its range; the error names the first one that is not.
     fn validate(&self) -> Result<(), InvalidValue> {
         let stack = self.stack();
         stack.validate()?;
@@ -159,7 +160,7 @@ impl GivenCase {
         within("wall_speed", self.wall_speed, steps <= MOST_STEPS, words)
     }
 
-    /// The run, in the units of the native DEM.
+    /// Returns the run, in the units of the native DEM.
     pub fn run(&self) -> PublishedRun {
         let stack = self.stack();
         let root = stack.stiffness.sqrt();
@@ -185,7 +186,7 @@ impl GivenCase {
         }
     }
 
-    /// Carries it out as long as it is `wanted`; `None` after that.
+    /// Runs the case; returns `None` if it stops being `wanted` before the end.
     pub fn carry_out(&self, wanted: impl FnMut() -> bool) -> Option<GivenOutcome> {
         let run = self.run();
         let mut found: Option<PublishedForces> = None;
@@ -208,7 +209,7 @@ impl GivenCase {
 }
 
 impl GivenOutcome {
-    /// Whether all its numbers are finite and there is one at least.
+    /// Returns whether there are any numbers and all of them are finite.
     pub fn is_usable(&self) -> bool {
         let forces = self.rows.iter().map(|row| row.1);
         let mut all = self.yield_force.into_iter().chain(forces);

@@ -1,4 +1,4 @@
-//! The authors' published data, the runs of their program that made them, and what of it does not fit together.
+//! The authors' published data, the runs of their program that made it, and contradictions in it.
 
 mod checkout;
 mod contradictions;

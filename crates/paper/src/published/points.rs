@@ -1,4 +1,4 @@
-//! The published yield forces, and what gives them.
+//! The published yield forces, and the runs that give them.
 
 use super::checkout::{Checkout, DataFile, Printed, Subject};
 use crate::dem::{ForceSampling, GivenStart, PublishedRun};
@@ -13,12 +13,12 @@ const FIGURE_S3: (f64, f64) = (0.2, 1e4);
 const OTHER: f64 = 1e-3;
 /// Wall speed in r √(k_n/m) and time step in √(m/k_n) of all yield forces, as the supplement gives them (Sec. I C).
 pub(super) const PAPER_SETTINGS: [f64; 2] = [1e-6, 1e-3];
-/// Time for which the wall stands, in √(r/g).
+/// Time for which the wall stands still at first, in √(r/g).
 pub const WALL_STARTS: f64 = 1.0;
 /// Restitution of the program.
 pub(super) const RESTITUTION: f64 = 0.3;
 
-/// What gives the rows of a file within a range of their first number.
+/// Settings that give the rows of a file within a range of their first number.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Rows {
@@ -35,7 +35,7 @@ struct Rows {
     end_time: Option<f64>,
 }
 
-/// What gives a series of forces.
+/// Settings that give a series of forces.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Series {
@@ -73,7 +73,7 @@ impl Settings {
 pub struct PublishedForce {
     /// The file, below the checkout.
     pub file: String,
-    /// Its line there.
+    /// The line in the file.
     pub line: usize,
     /// The stack, as file and figure say.
     pub stack: Stack,
@@ -81,19 +81,20 @@ pub struct PublishedForce {
     pub value: Printed,
     /// Wall speed and time step as figure and supplement give them, in r √(k_n/m) and √(m/k_n).
     pub labelled: [f64; 2],
-    /// The exact limit of the stack with springs that nothing turns, in m g; `None` where it has none.
+    /// The exact limit of the stack with springs that do not turn with the contact, in m g; `None` if it has none.
     pub limit: Option<f64>,
-    /// What gives the force; `None` where that is not known, or its start is not in the checkout.
+    /// The run that gives the force; `None` if it is not known or cannot be made, as without its start in the
+    /// checkout.
     pub origin: Option<ForceOrigin>,
 }
 
 impl PublishedForce {
-    /// The folder of its figure, such as `fig2a`.
+    /// Returns the folder of its figure, such as `fig2a`.
     pub fn figure(&self) -> &str {
         self.file.rsplit('/').nth(2).unwrap_or_default()
     }
 
-    /// F + 3, as the figures show it.
+    /// Returns F + 3, as the figures show it.
     pub fn load(&self) -> f64 {
         self.value.value + 3.0
     }
@@ -110,11 +111,11 @@ pub struct ForceOrigin {
     pub time_step: f64,
     /// Time at which the run ended before its force fell, in √(r/g); `None` where it ended with the first decrease.
     pub end_time: Option<f64>,
-    /// The run that makes it.
+    /// The native run.
     pub run: PublishedRun,
 }
 
-/// The yield forces of a checkout, file by file.
+/// Returns the yield forces of a checkout, file by file.
 pub fn published_forces(checkout: &Checkout) -> Vec<PublishedForce> {
     let settings = Settings::read();
     let files = checkout.files.iter();
@@ -191,12 +192,12 @@ fn limit(stack: &Stack) -> Option<f64> {
     quasistatic_limit(stack, &ContactConvention::PAPER).yield_force
 }
 
-/// Height of the wall at first, in r: that of three cylinders that just touch.
+/// Returns the height of the wall at first, in r: that of three cylinders that just touch.
 pub(super) fn wall_height() -> f64 {
     2.0 + 3f64.sqrt()
 }
 
-/// The run of a stack from a `start`, at a speed and time step in the program's units.
+/// Returns the run of a stack from a `start`, at a speed and time step in the program's units.
 pub(super) fn run(
     start: &GivenStart,
     stack: &Stack,
@@ -226,22 +227,22 @@ pub struct PublishedSeries {
     pub file: String,
     /// The stack.
     pub stack: Stack,
-    /// The exact limit of the stack with springs that nothing turns, in m g; `None` where it has none.
+    /// The exact limit of the stack with springs that do not turn with the contact, in m g; `None` if it has none.
     pub limit: Option<f64>,
     /// Time in √(r/g) and force as they are printed, each row with its line.
     pub rows: Vec<(usize, [Printed; 2])>,
-    /// What gives them; `None` where its start is not in the checkout.
+    /// The run that gives them; `None` if its start is not in the checkout.
     pub origin: Option<ForceOrigin>,
 }
 
 impl PublishedSeries {
-    /// The wall speed that gives it, in √(g r).
+    /// Returns the wall speed that gives it, in √(g r).
     pub fn wall_speed(&self) -> Option<f64> {
         self.origin.as_ref().map(|origin| origin.wall_speed)
     }
 }
 
-/// The series of a checkout.
+/// Returns the series of a checkout.
 pub fn published_series(checkout: &Checkout) -> Vec<PublishedSeries> {
     let settings = Settings::read().series;
     let series = settings.iter().filter_map(|own| {

@@ -9,12 +9,13 @@ use crate::runs::{RunError, Workload};
 use crate::study::Campaign;
 use serde::Serialize;
 
-/// Largest difference, relative to F + 3, of a force that counts as reproduced where the last digits differ. The published
-/// numbers are not surer than that: two files of the authors, fig2a/data/k1e+2.txt and src/data/k1.0e+02.txt, give the same
-/// runs up to 1.1e-6 apart, as do versions of a program that round otherwise, at three bodies that start far from rest.
+/// Largest difference, relative to F + 3, of a force that counts as reproduced although its last digits differ. The
+/// published numbers are no more certain than that: two files of the authors, fig2a/data/k1e+2.txt and
+/// src/data/k1.0e+02.txt, give the same runs up to 1.1e-6 apart, as do versions of a program that round differently,
+/// for three bodies that start far from rest.
 pub const ALIKE: f64 = 3e-6;
 
-/// How a published number is reproduced.
+/// How well a published number is reproduced.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Fit {
@@ -22,7 +23,7 @@ pub enum Fit {
     EveryDigit,
     /// To [`ALIKE`] of F + 3.
     Alike,
-    /// Not so well.
+    /// Worse than that.
     Differs,
     /// No start, speed and time step is known that gives it.
     Unknown,
@@ -30,35 +31,35 @@ pub enum Fit {
     Failed,
 }
 
-/// A published force, and the native one.
+/// A published force, and its reproduction.
 #[derive(Debug, Clone)]
 pub struct RepeatedForce {
     /// As it is published.
     pub published: PublishedForce,
-    /// By a native run; `None` where nothing is known that gives it.
+    /// By a native run; `None` if no run is known that gives it.
     pub found: Option<Result<f64, RunError>>,
 }
 
 impl RepeatedForce {
-    /// The native force in m g.
+    /// Returns the native force in m g.
     pub fn force(&self) -> Option<f64> {
         self.found.as_ref()?.as_ref().ok().copied()
     }
 
-    /// The native force less the published one, relative to F + 3.
+    /// Returns the native force less the published one, relative to F + 3.
     pub fn remainder(&self) -> Option<f64> {
         let value = self.published.value.value;
         self.force().map(|force| (force - value) / (value + 3.0))
     }
 
-    /// The published force less the exact limit, relative to F + 3.
+    /// Returns the published force less the exact limit, relative to the limit + 3.
     pub fn excess(&self) -> Option<f64> {
         let value = self.published.value.value;
         let limit = self.published.limit?;
         Some((value - limit) / (limit + 3.0))
     }
 
-    /// How it is reproduced.
+    /// Returns how well it is reproduced.
     pub fn fit(&self) -> Fit {
         match (&self.found, self.force(), self.remainder()) {
             (None, ..) => Fit::Unknown,
@@ -70,12 +71,12 @@ impl RepeatedForce {
     }
 }
 
-/// A published series, and the native one.
+/// A published series, and its reproduction.
 #[derive(Debug, Clone)]
 pub struct RepeatedSeries {
     /// As it is published.
     pub published: PublishedSeries,
-    /// By a native run; `None` where nothing is known that gives it.
+    /// By a native run; `None` if no run is known that gives it.
     pub found: Option<Result<Vec<f64>, RunError>>,
 }
 
@@ -89,7 +90,7 @@ impl RepeatedSeries {
             .zip(found)
     }
 
-    /// Rows that are reproduced in every printed digit.
+    /// Counts the rows that are reproduced in every printed digit.
     pub fn rows_in_every_digit(&self) -> usize {
         let same = self
             .pairs()
@@ -97,7 +98,7 @@ impl RepeatedSeries {
         same.count()
     }
 
-    /// The largest difference of a force, relative to f + 3.
+    /// Returns the largest difference of a force, relative to |f| + 3.
     pub fn largest_remainder(&self) -> Option<f64> {
         let off = self.pairs().map(|(published, found)| {
             ((found - published.value) / (published.value.abs() + 3.0)).abs()
@@ -105,7 +106,7 @@ impl RepeatedSeries {
         off.reduce(f64::max)
     }
 
-    /// How it is reproduced.
+    /// Returns how well it is reproduced.
     pub fn fit(&self) -> Fit {
         let rows = self.published.rows.len();
         match (&self.found, self.largest_remainder()) {
@@ -119,7 +120,7 @@ impl RepeatedSeries {
     }
 }
 
-/// A checkout, its numbers reproduced, and those that do not fit together.
+/// A checkout, the reproductions of its numbers, and its contradictions.
 #[derive(Debug, Clone)]
 pub struct Published {
     /// The data files.
@@ -128,12 +129,12 @@ pub struct Published {
     pub forces: Vec<RepeatedForce>,
     /// The series of forces.
     pub series: Vec<RepeatedSeries>,
-    /// Numbers of one thing that differ.
+    /// Numbers for the same quantity that differ.
     pub contradictions: Vec<Contradiction>,
 }
 
 impl Published {
-    /// The native runs of all numbers of `checkout`; `None` after an interrupt.
+    /// Reproduces all numbers of `checkout` by native runs; returns `None` after an interrupt.
     pub fn repeat(checkout: &Checkout, campaign: &Campaign) -> Option<Self> {
         let (forces, series) = (published_forces(checkout), published_series(checkout));
         let contradictions = contradictions(checkout, &forces);
@@ -172,20 +173,20 @@ impl Published {
         })
     }
 
-    /// The forces of a figure, by the name of its folder.
+    /// Returns the forces of a figure, by the name of its folder.
     pub fn of_figure(&self, figure: &str) -> impl Iterator<Item = &PublishedForce> {
         let forces = self.forces.iter().map(|own| &own.published);
         forces.filter(move |own| own.figure() == figure)
     }
 
-    /// How all its numbers are reproduced, series as one each.
+    /// Returns how well each number is reproduced; a series counts as one.
     pub fn fits(&self) -> impl Iterator<Item = Fit> {
         let forces = self.forces.iter().map(RepeatedForce::fit);
         forces.chain(self.series.iter().map(RepeatedSeries::fit))
     }
 }
 
-/// The force that a run was stopped at, or that before the first decrease.
+/// Returns the force at which a run was stopped, or else that before the first decrease.
 fn force_of(forces: &PublishedForces) -> f64 {
     let stopped = forces.samples.last().copied();
     stopped.or(forces.yield_force).unwrap_or(f64::NAN)

@@ -8,16 +8,16 @@ use crate::study::Campaign;
 use crate::study::yield_force::PAPER_TIME_STEP;
 use crate::theory::quasistatic_limit;
 
-/// Wall speeds at the paper's time step. The native DEM alone runs the slowest.
+/// Wall speeds at the paper's time step. Only the native DEM runs the slowest.
 pub const WALL_SPEEDS: [f64; 5] = [1e-3, 1e-4, 1e-5, 1e-6, 1e-7];
-/// Time steps at [`FAST_WALL`]. The native DEM alone runs the smallest.
+/// Time steps at [`FAST_WALL`]. Only the native DEM runs the smallest.
 const TIME_STEPS: [f64; 6] = [1e-1, 5e-2, 1e-2, 5e-3, 1e-3, 1e-4];
 /// Wall speed at which the paper varies the time step.
 pub const FAST_WALL: f64 = 1e-3;
 /// Interval of the rows, small because a fast wall passes the yield within a few time units.
 const FINE_INTERVAL: f64 = 0.1;
 
-/// The stack of the paper's convergence study.
+/// Returns the stack of the paper's convergence study.
 pub fn convergence_stack() -> Stack {
     Stack::paper(0.2, 1e4)
 }
@@ -42,12 +42,12 @@ pub struct ConvergencePoint {
 }
 
 impl ConvergencePoint {
-    /// (peak − limit)/limit.
+    /// Returns (peak − limit)/limit.
     pub fn excess_of_peak(&self) -> Option<f64> {
         self.excess(self.peak_force)
     }
 
-    /// (slip onset − limit)/limit.
+    /// Returns (slip onset − limit)/limit.
     pub fn excess_of_slip(&self) -> Option<f64> {
         self.excess(self.slip_force)
     }
@@ -67,17 +67,17 @@ pub struct Convergence {
     pub time_steps: Vec<ConvergencePoint>,
 }
 
-/// The wall speeds at which `code` runs.
+/// Returns the wall speeds at which `code` runs.
 fn wall_speeds(code: &Code) -> &'static [f64] {
     &WALL_SPEEDS[..WALL_SPEEDS.len() - usize::from(!code.is_native())]
 }
 
-/// The time steps at which `code` runs.
+/// Returns the time steps at which `code` runs.
 fn time_steps(code: &Code) -> &'static [f64] {
     &TIME_STEPS[..TIME_STEPS.len() - usize::from(!code.is_native())]
 }
 
-/// The runs of one code: those over the wall speed first.
+/// Returns the runs of one code, those over the wall speed first.
 fn workload(code: &SettledCode) -> Workload {
     let speeds = wall_speeds(code.name()).iter();
     let speeds = speeds.filter_map(|&speed| case(code, speed, PAPER_TIME_STEP));
@@ -95,7 +95,7 @@ fn case(code: &SettledCode, wall_speed: f64, time_step: f64) -> Option<Case> {
     Some(case)
 }
 
-/// The runs of the study, code by code.
+/// Returns the runs of the study, code by code.
 pub fn convergence_workloads(codes: &[SettledCode]) -> Vec<Workload> {
     codes.iter().map(workload).collect()
 }

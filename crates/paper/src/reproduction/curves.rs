@@ -45,7 +45,7 @@ impl TheoryPoint {
         }
     }
 
-    /// Distance of `theory` from the exact limit, relative to F + 3.
+    /// Returns the distance of `theory` from the exact limit, relative to F + 3.
     pub fn error(&self, theory: Option<f64>) -> Option<f64> {
         let (theory, exact) = theory.zip(self.exact)?;
         Some((theory - exact) / (exact + 3.0))
@@ -78,7 +78,7 @@ pub struct Curves {
     pub codes_by_limit: Vec<Vec<SettledCode>>,
 }
 
-/// The frictions of the curves, the critical one included.
+/// Returns the frictions of the curves, the critical one included.
 fn frictions() -> Vec<f64> {
     let (lowest, highest, count) = FRICTIONS;
     let step = (highest - lowest) / (count - 1) as f64;
@@ -110,7 +110,7 @@ pub fn curves(codes: &[SettledCode]) -> Curves {
     }
 }
 
-/// The codes whose limit is not the paper's, because of their arms or of springs that turn, grouped by these.
+/// Groups the codes whose limit is not the paper's, because of their arms or of springs that turn, by these.
 fn codes_by_limit(codes: &[SettledCode]) -> Vec<Vec<SettledCode>> {
     let limit = |code: &SettledCode| {
         let convention = code.stack_convention(Power::Linear, PAPER_BODIES);
@@ -130,7 +130,7 @@ fn codes_by_limit(codes: &[SettledCode]) -> Vec<Vec<SettledCode>> {
     groups
 }
 
-/// Differences of one code for every group of [`codes_by_limit`].
+/// Returns the differences for the first code of every group of [`codes_by_limit`].
 fn model_form(groups: &[Vec<SettledCode>]) -> Vec<ModelFormPoint> {
     let mut points = Vec::new();
     for code in groups.iter().map(|group| &group[0]) {

@@ -50,7 +50,7 @@ impl Reading for ForceRows {
     }
 }
 
-/// The stack of the paper's figure on f(t).
+/// Returns the stack of the paper's figure on f(t).
 pub fn force_series_stack() -> Stack {
     Stack::paper(0.2, 100.0)
 }

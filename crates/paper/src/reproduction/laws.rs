@@ -8,17 +8,17 @@ use crate::study::Campaign;
 use crate::study::yield_force::{Judgement, Measurement, Profile, plan};
 use crate::theory::quasistatic_limit;
 
-/// The law beside the paper's.
+/// The law that is studied beside the paper's.
 const POWER: Power = Power::Hertz;
 /// Intervals of the curve over the stiffness, in every decade.
 const INTERVALS: u32 = 8;
 
-/// What Hertz contacts do to the stack.
+/// The stack with Hertz contacts.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Laws {
-    /// Yield forces of every style of every code at the stacks of the profile, those of each stack that yields.
+    /// Yield forces of every style of every code, at the stacks of the profile that yield.
     pub yield_curves: Vec<Judgement>,
-    /// Yield forces at μ_c, of one style a code.
+    /// Yield forces at μ_c, of one style per code.
     pub scaling: Vec<Judgement>,
     /// Their exponents.
     pub exponents: Vec<Exponent>,
@@ -27,7 +27,7 @@ pub struct Laws {
 }
 
 impl Laws {
-    /// The yield forces by the codes of `campaign`.
+    /// Measures the yield forces with the codes of `campaign`.
     pub(super) fn new(campaign: &Campaign) -> Self {
         let [curves, scaling] = measurements(&campaign.settled());
         let mut all = curves.clone();
@@ -48,7 +48,7 @@ impl Laws {
     }
 }
 
-/// The measurements of the yield curves, and those at μ_c, of every stack that yields.
+/// Returns the measurements of the yield curves, and those at μ_c, of every stack that yields.
 pub(super) fn measurements(codes: &[SettledCode]) -> [Vec<Measurement>; 2] {
     let curves =
         Profile::Quick.measurements_of(&Profile::Quick.stacks(POWER, PAPER_BODIES), codes, POWER);

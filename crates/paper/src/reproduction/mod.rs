@@ -52,7 +52,7 @@ pub struct Reproduction {
     pub exponents: Vec<Exponent>,
     /// The same stack with Hertz contacts.
     pub laws: Laws,
-    /// At the paper's literal wall speed and time step.
+    /// Yield forces at the paper's literal wall speed and time step.
     pub literal: Vec<Judgement>,
     /// The supplement's figure on wall speed and time step.
     pub convergence: Convergence,
@@ -72,16 +72,15 @@ pub struct Reproduction {
     pub curves: Curves,
     /// Spheres in place of cylinders.
     pub spheres: Spheres,
-    /// What the authors have published, and the same by native runs of their program; `None` where nobody has given a
-    /// checkout.
+    /// The authors' published data, and its reproduction by native runs of their program; `None` without a checkout.
     pub published: Option<Published>,
     /// The origins of the runs, in the order of their use.
     pub provenances: Vec<Provenance>,
 }
 
 impl Reproduction {
-    /// Every row that is judged: the yield curves and the scaling of both laws. Those at the paper's literal settings are
-    /// there to be compared.
+    /// Returns every row that is judged: the yield curves and the scaling of both laws. Rows at the paper's literal
+    /// settings are only for comparison.
     pub fn judged_rows(&self) -> impl Iterator<Item = &Judgement> {
         let linear = self.yield_curves.iter().chain(&self.scaling);
         linear
@@ -96,7 +95,7 @@ pub enum ReproductionError {
     /// A native run that everything else needs has failed.
     #[error(transparent)]
     Run(#[from] RunError),
-    /// The native run that is drawn left the finite numbers.
+    /// The series of the native run that is drawn is invalid.
     #[error(transparent)]
     Series(#[from] SeriesError),
 }
@@ -115,7 +114,7 @@ pub struct Scope<'a> {
     pub published: Option<&'a Checkout>,
 }
 
-/// Reproduces the paper; `None` after an interrupt.
+/// Reproduces the paper; returns `None` after an interrupt.
 ///
 /// # Errors
 /// If the native run behind f(t), or one behind A*, fails. Failures of other runs are in the rows.
@@ -170,7 +169,7 @@ pub fn reproduce(
     }))
 }
 
-/// Every code with linear springs: as it takes part in `settled`, or else as its manifest declares it.
+/// Adds the other codes with linear springs whose manifests declare the whole convention, and sorts all by name.
 fn with_the_rest(settled: &[SettledCode]) -> Vec<SettledCode> {
     let rest = Code::of_power(Power::Linear).into_iter();
     let rest = rest.filter(|code| !settled.iter().any(|own| own.name() == code));
@@ -180,7 +179,7 @@ fn with_the_rest(settled: &[SettledCode]) -> Vec<SettledCode> {
     all
 }
 
-/// The part that needs no runs.
+/// Results that need no runs.
 struct Theory {
     maps: [RegimeMap; 3],
     survey: SurveyPlan,
@@ -204,7 +203,7 @@ impl Theory {
     }
 }
 
-/// The part that is read off runs.
+/// Results that are read off runs.
 struct Measured {
     yield_curves: Vec<Judgement>,
     scaling: Vec<Judgement>,
@@ -217,7 +216,7 @@ struct Measured {
 }
 
 impl Measured {
-    /// Carries out all runs; `None` after an interrupt.
+    /// Carries out all runs; returns `None` after an interrupt.
     fn new(scope: &Scope, campaign: &Campaign) -> Result<Option<Self>, RunError> {
         let interrupted = || scope.settings.interrupt.requested();
         let parts = planned(scope, &campaign.settled());
@@ -256,13 +255,13 @@ impl Measured {
     }
 }
 
-/// The origins of the runs behind `judgements`.
+/// Returns the origins of the runs behind `judgements`.
 fn provenances_of(judgements: &[Judgement]) -> impl Iterator<Item = Provenance> {
     let runs = judgements.iter().flat_map(Judgement::runs);
     runs.map(|summary| summary.provenance.clone())
 }
 
-/// The run of `stack` with a given wall speed; `None` where nothing yields.
+/// Returns the run of `stack` at a given wall speed; `None` if the stack does not yield.
 fn case_at_speed(
     code: &SettledCode,
     stack: Stack,
@@ -294,7 +293,7 @@ fn trajectories(codes: &[SettledCode]) -> Vec<Trajectory> {
     planned.collect()
 }
 
-/// The measurements behind Fig. 2(a) and Fig. 2(b), and those at the paper's literal settings.
+/// Returns the measurements behind Fig. 2(a) and Fig. 2(b), and those at the paper's literal settings.
 fn planned(scope: &Scope, codes: &[SettledCode]) -> [Vec<Measurement>; 3] {
     let [yield_curves, scaling, mut literal] = all_measurements(codes);
     if !scope.literal {
@@ -311,7 +310,7 @@ fn all_measurements(codes: &[SettledCode]) -> [Vec<Measurement>; 3] {
     ]
 }
 
-/// Every measurement once, since figures share stacks.
+/// Returns every measurement once, since figures share stacks.
 fn every_measurement(parts: &[Vec<Measurement>]) -> Vec<Measurement> {
     let mut all: Vec<Measurement> = Vec::new();
     for measurement in parts.iter().flatten() {
@@ -326,7 +325,7 @@ fn is_same(left: &Measurement, right: &Measurement) -> bool {
     (&left.code, left.stack, left.method) == (&right.code, right.stack, right.method)
 }
 
-/// The `judgements` of the measurements in `part`, in the order of `part`.
+/// Returns the `judgements` of the measurements in `part`, in the order of `part`.
 fn judged(part: &[Measurement], judgements: &[Judgement]) -> Vec<Judgement> {
     let found = part.iter().filter_map(|wanted| {
         let mut all = judgements.iter();
@@ -335,7 +334,7 @@ fn judged(part: &[Measurement], judgements: &[Judgement]) -> Vec<Judgement> {
     found.cloned().collect()
 }
 
-/// The summaries of all runs of an external code that the report needs, for `tristack record`.
+/// Returns the summaries of all runs of an external code that the report needs, for `tristack record`.
 ///
 /// # Errors
 /// The first run that fails.

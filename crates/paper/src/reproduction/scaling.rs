@@ -8,13 +8,13 @@ use crate::study::{MAX_TOLERANCE, Verdict};
 /// Frictions of Fig. 2(b).
 pub const SCALING_FRICTIONS: [f64; 3] = [0.25, CRITICAL_FRICTION, 0.3];
 
-/// Stiffnesses 1/ε of Fig. 2(b), one a decade.
+/// Stiffnesses 1/ε of Fig. 2(b), one per decade.
 pub(super) const SCALING_STIFFNESSES: [f64; 6] = [1e1, 1e2, 1e3, 1e4, 1e5, 1e6];
 
-/// Lowest stiffness of the fits: ε is three decades below 1 from here on.
+/// Lowest stiffness of the fits: from here on, ε is at most 1e-3.
 pub const FITTED_FROM: f64 = 1e3;
 
-/// An exponent β in F + 3 ∝ (K r^p/(m g))^β, fitted over the stiffnesses from 10³ on, K = k_n for linear springs.
+/// An exponent β in F + 3 ∝ (K r^p/(m g))^β, fitted over stiffnesses from 10³ on. K is k_n for linear springs.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Exponent {
     /// The code that measured the yield forces.
@@ -37,7 +37,7 @@ pub struct Exponent {
     pub verdict: Verdict,
 }
 
-/// The measurements for Fig. 2(b): every stack that yields, by each of the `codes`.
+/// Returns the measurements for Fig. 2(b): every stack that yields, by each of the `codes`.
 pub fn scaling_measurements(codes: &[SettledCode]) -> Vec<Measurement> {
     let stacks = SCALING_FRICTIONS
         .iter()
@@ -55,14 +55,14 @@ pub fn scaling_measurements(codes: &[SettledCode]) -> Vec<Measurement> {
     rows.filter(|row| !row.cases.is_empty()).collect()
 }
 
-/// The exponents of every code at every friction of Fig. 2(b) that has at least two points to fit.
+/// Returns the exponents of every code at every friction of Fig. 2(b) that has at least two points to fit.
 pub fn exponents(judgements: &[Judgement]) -> Vec<Exponent> {
     let frictions = SCALING_FRICTIONS.into_iter();
     let fitted = frictions.flat_map(|mu| fitted_exponents(judgements, mu));
     fitted.collect()
 }
 
-/// The exponents of every code that has at least two points to fit at `mu`.
+/// Returns the exponents of every code that has at least two points to fit at `mu`.
 pub(super) fn fitted_exponents(judgements: &[Judgement], mu: f64) -> Vec<Exponent> {
     let codes = Code::distinct(judgements.iter().map(|row| &row.code)).into_iter();
     let fitted = codes.filter_map(|code| {
@@ -76,7 +76,7 @@ pub(super) fn fitted_exponents(judgements: &[Judgement], mu: f64) -> Vec<Exponen
     fitted.collect()
 }
 
-/// Logarithms of one measured load F + 3, its limit and its stiffness, and the uncertainty of the first.
+/// Logarithms of a measured load F + 3, its limit and its stiffness, and the uncertainty of the first.
 struct Point {
     stiffness: f64,
     load: f64,
@@ -119,7 +119,7 @@ fn fit(code: Code, power: Power, mu: f64, points: &[Point]) -> Exponent {
     }
 }
 
-/// The weights with which the ordinates enter a least-squares slope.
+/// Returns the weights of the ordinates in a least-squares slope.
 fn slope_weights(abscissae: impl ExactSizeIterator<Item = f64> + Clone) -> Vec<f64> {
     let count = abscissae.len() as f64;
     let mean = abscissae.clone().sum::<f64>() / count;
@@ -128,7 +128,7 @@ fn slope_weights(abscissae: impl ExactSizeIterator<Item = f64> + Clone) -> Vec<f
     distances.map(|distance| distance / spread).collect()
 }
 
-/// The least-squares slope of ln(F + 3) over ln(1/ε) of pairs of stiffness and load; not a number for fewer than two.
+/// Returns the least-squares slope of ln(F + 3) over ln(1/ε) for pairs of stiffness and load; NaN for a single pair.
 pub fn slope(points: &[(f64, f64)]) -> f64 {
     let weights = slope_weights(points.iter().map(|point| libm::log(point.0)));
     let terms = weights.iter().zip(points);
@@ -137,7 +137,7 @@ pub fn slope(points: &[(f64, f64)]) -> f64 {
         .sum()
 }
 
-/// The one of three exponents, for frictions below, at and above μ_c, that belongs to `mu`.
+/// Returns the exponent for `mu` out of three, for frictions below, at and above μ_c.
 pub fn exponent_at(mu: f64, [below, at, above]: [f64; 3]) -> f64 {
     match mu.total_cmp(&CRITICAL_FRICTION) {
         std::cmp::Ordering::Less => below,

@@ -4,7 +4,7 @@ use crate::model::{ContactConvention, PAPER_BODIES, Ring, Stack};
 use crate::theory::{Event, Limit, quasistatic_limit, rigid_yield};
 use rayon::iter::{IntoParallelIterator, ParallelIterator};
 
-/// Numbers n of bodies on the floor: cylinders, and all rings of spheres that carry another one.
+/// Numbers n of bodies on the floor: cylinders, and every ring of spheres that can carry another one.
 const BODIES: [u8; 4] = [PAPER_BODIES, 3, 4, 5];
 /// Stiffnesses 1/ε of the curves.
 pub const SPHERES_STIFFNESSES: [f64; 2] = [1e2, 1e4];
@@ -12,26 +12,27 @@ pub const SPHERES_STIFFNESSES: [f64; 2] = [1e2, 1e4];
 const TABLE_FRICTIONS: [f64; 3] = [0.5, 1.0, 1.1];
 /// Number of intervals of a curve.
 const INTERVALS: u32 = 120;
-/// Powers of ten between which the rigid curve ends, (F + n + 1)/n being the load, and its points per power.
+/// Decades of the load (F + n + 1)/n that the rigid curve spans, and its points per decade.
 const RIGID_DECADES: (u32, u32) = (5, 20);
 
 /// Spheres beside cylinders, by theory under the paper's convention.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Spheres {
-    /// One for every stiffness and number of bodies.
+    /// One curve for every stiffness and number of bodies.
     pub curves: Vec<BodiesCurve>,
-    /// μ/μ_c, and the load (F + n + 1)/n of rigid bodies, one curve for every n: from the own weight of the most bodies on.
+    /// μ/μ_c, and the load (F + n + 1)/n of rigid bodies: the same curve for every n. It begins where the stack with
+    /// the most bodies carries its own weight.
     pub rigid: Vec<(f64, Option<f64>)>,
 }
 
-/// The exact yield force over the floor friction, of so many bodies on the floor at one stiffness.
+/// The exact yield force over the floor friction, for a number of bodies on the floor and a stiffness.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BodiesCurve {
     /// The stack at its rigid critical friction μ_c.
     pub stack: Stack,
-    /// Lowest and highest floor friction μ at which it yields under the wall. It slides under its own weight below.
+    /// Lowest and highest floor friction μ at which it yields under the wall. Below, it slides under its own weight.
     pub frictions: (f64, f64),
-    /// What comes before the floor slips, above the highest.
+    /// Event that comes before floor slip above the highest friction.
     pub ends_by: Event,
     /// μ/μ_c and F, from the lowest to the highest friction.
     pub points: Vec<(f64, Option<f64>)>,
@@ -40,7 +41,7 @@ pub struct BodiesCurve {
 }
 
 impl Spheres {
-    /// Every curve.
+    /// Computes every curve.
     pub fn new() -> Self {
         let curves = SPHERES_STIFFNESSES.into_iter().flat_map(|stiffness| {
             BODIES.map(|bodies| Stack {
@@ -61,8 +62,8 @@ impl BodiesCurve {
         let ring = stack.ring();
         stack.floor_friction = ring.critical_friction;
         let yields = |mu: f64| limit(&stack, mu).yield_force.is_some();
-        // At half the rigid critical friction every stack yields. At half of what rigid bodies need to carry their weight it
-        // slides, and at μ = 1 it never does, since T stays below 1.
+        // At half the rigid critical friction every stack yields. At half the friction that rigid bodies need to
+        // carry their weight it slides, and at μ = 1 it never does, since T stays below 1.
         let known = 0.5 * ring.critical_friction;
         let (lowest, _) = last_that(yields, known, 0.5 * own_weight_friction(&ring));
         let (highest, beyond) = last_that(yields, known, 1.0);
@@ -88,12 +89,12 @@ impl BodiesCurve {
         }
     }
 
-    /// (F + n + 1)/n, what one of the bottom bodies puts on the floor under the wall force F, both in m g.
+    /// Returns (F + n + 1)/n, the load of one bottom body on the floor under the wall force F, both in m g.
     pub fn load(&self, force: f64) -> f64 {
         load(&self.stack, force)
     }
 
-    /// μ_c/(n + 1), below which rigid bodies slide under their own weight.
+    /// Returns μ_c/(n + 1), the friction below which rigid bodies slide under their own weight.
     pub fn own_weight_friction(&self) -> f64 {
         own_weight_friction(&self.stack.ring())
     }
@@ -115,7 +116,7 @@ fn limit(stack: &Stack, mu: f64) -> Limit {
     quasistatic_limit(&stack, &ContactConvention::TURNING)
 }
 
-/// The neighbouring doubles between `inside` and `outside` of which one `holds` and the other one does not, by bisection.
+/// Bisects to two neighbouring doubles between `inside` and `outside`: the first `holds`, the second does not.
 fn last_that(holds: impl Fn(f64) -> bool, mut inside: f64, mut outside: f64) -> (f64, f64) {
     loop {
         let middle = 0.5 * (inside + outside);
@@ -129,7 +130,8 @@ fn last_that(holds: impl Fn(f64) -> bool, mut inside: f64, mut outside: f64) -> 
     }
 }
 
-/// The curve of rigid bodies, of as many as there are, since theirs begins first; evenly spaced on a logarithmic axis of loads.
+/// Returns the curve of rigid bodies for the largest number of them, whose curve begins first; its points are evenly
+/// spaced on a logarithmic axis of loads.
 fn rigid() -> Vec<(f64, Option<f64>)> {
     let stack = Stack {
         bodies: BODIES[BODIES.len() - 1],

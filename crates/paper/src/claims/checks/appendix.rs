@@ -24,7 +24,7 @@ pub(crate) const CHECKS: &[Check] = &[
     Check::at_states("first-of-xyz", PaperTheory::first_of_xyz),
     Check::at_states("second-of-xyz", PaperTheory::second_of_xyz),
     Check::at_states("third-of-xyz", PaperTheory::third_of_xyz),
-    // A, B and C in terms of the forces, with S the distance of the centres.
+    // Checks A, B and C in terms of the forces. S is the distance between the centres.
     //
     // From a = k_n [x(√3r − x) − y(r + y)]/S and b = e = μ k_n z; with r(x + √3y) = S (2μκz − y),
     // A = a S w²/k_n, B = b S w² z/(k_n z), C = S² w² z for w = 2μκz − y.
@@ -34,7 +34,7 @@ pub(crate) const CHECKS: &[Check] = &[
             let forces = state.forces();
             let moved = &state.displacements;
             let distance = (moved.upper() - moved.lower()).norm();
-            // w = κ (b + e)/k_n − …: the two tangential springs together hold 2κμz, the floor takes y + rθ.
+            // 2κμz = κ (b + e)/k_n is the stretch of both tangential springs together; that of the floor is y + rθ.
             let twice = state.ratio * (forces.b + forces.e) / NORMAL_STIFFNESS;
             let square = (twice - state.y()).powi(2);
             let squares = distance * distance * square;
@@ -62,7 +62,7 @@ pub(crate) const CHECKS: &[Check] = &[
     Check::at_states("conjugate-relation", PaperTheory::conjugate_relation),
     Check::at_states("slope-relation", PaperTheory::slope_relation),
     Check::at_states("closed-form", PaperTheory::closed_form),
-    // Whether "x, y, z ≥ 0" is necessary or sufficient for a, b, d and e to be positive.
+    // Checks whether "x, y, z ≥ 0" is necessary or sufficient for a, b, d and e to be positive.
     Check::theory("non-negative-variables", |paper| {
         let states = yield_states();
         let positive = |state: &&YieldState| {
@@ -97,7 +97,7 @@ pub(crate) const CHECKS: &[Check] = &[
 const UNKNOWNS: &str = r"$\delta_{11}$, $\delta_{21}$, $\delta_{22}$, $\theta$ and $f$";
 const FACTORS: &str = r"$(x + \sqrt{3}y)/(\epsilon r)$ and $(r + y)/r$";
 
-/// The range of the yield states, and the dimensions in which they are solved, in words.
+/// Describes the range of the yield states and the dimensions in which they are solved.
 pub(super) fn range_of_states() -> String {
     format!(
         "{}, {}, {}; $r$ and $k_n$ not 1",

@@ -133,7 +133,8 @@ pub(crate) const CHECKS: &[Check] = &[
         let deviation = worst([loading, unloading, violation(!undefined)]);
         Finding::new(deviation, ROUND_OFF, evidence)
     }),
-    // Whether stacks that the paper has yield at the floor stand until then, with the printed cap between cylinders.
+    // Counts the stacks that yield at the floor in the paper but fall under their own weight with the printed cap
+    // between cylinders.
     Check::theory("cap-between-cylinders", |paper| {
         let (frictions, stiffness) = ([0.12, 0.15, 0.2, 0.25], 1e3);
         let falls = |&mu: &f64| {
@@ -199,21 +200,21 @@ const MASS: f64 = 0.8;
 /// e_r of the paper.
 const RESTITUTION: f64 = 0.7;
 
-/// An identity at `count` numbers without a pattern between −1 and 1.
+/// Checks an identity at `count` scattered numbers between −1 and 1.
 fn at_samples(count: u32, compared: &str, deviation: impl Fn(f64) -> f64) -> Finding {
     let samples = (1..=count).map(|index| (f64::from(index) * 2.399_963).sin());
     Finding::identity(samples.map(deviation), compared)
 }
 
-/// The unit vector at an angle from the x-axis.
+/// Returns the unit vector at an angle from the x-axis.
 fn unit_vector(angle: f64) -> Vector2<f64> {
     Vector2::new(angle.cos(), angle.sin())
 }
 
-/// Restitution of a damped oscillator over half a period, integrated until the displacement is back at zero.
+/// Integrates a damped oscillator until its displacement is back at zero, half a period, and returns the restitution.
 fn restitution(mass: f64, stiffness: f64, damping: f64) -> f64 {
     let step = 1e-3 * (mass / stiffness).sqrt();
-    // The state is (x, v); a Runge–Kutta method of fourth order.
+    // The state is (x, v); the method is Runge–Kutta of fourth order.
     let rate = |state: Vector2<f64>| {
         Vector2::new(state.y, (-stiffness * state.x - damping * state.y) / mass)
     };
@@ -225,7 +226,7 @@ fn restitution(mass: f64, stiffness: f64, damping: f64) -> f64 {
         let fourth = rate(state + step * third);
         let next = state + step * (first + 2.0 * second + 2.0 * third + fourth) / 6.0;
         if next.x <= 0.0 || !next.x.is_finite() {
-            // Near the end the motion is straight to second order in the step.
+            // Interpolating linearly within the last step has an error of second order in the step.
             let part = if state.x > 0.0 {
                 state.x / (state.x - next.x)
             } else {
@@ -237,7 +238,7 @@ fn restitution(mass: f64, stiffness: f64, damping: f64) -> f64 {
     }
 }
 
-/// The measured `restitution` must be that of the paper, up to the error of the integration.
+/// Checks that the measured `restitution` is that of the paper, up to the error of the integration.
 fn restores(restitution: f64, evidence: String) -> Finding {
     Finding::new((restitution - RESTITUTION).abs(), 1e-6, evidence)
 }

@@ -246,22 +246,23 @@ fn at_states(compared: &str, deviation: impl Fn(&YieldState) -> f64) -> Finding 
     )
 }
 
-/// 1/ε at which displacements above μ_c are those for ε → 0, to 7 digits.
+/// 1/ε so large that displacements above μ_c agree with those for ε → 0 to 7 digits.
 const NEARLY_RIGID: f64 = 1e8;
 const WIDE: [f64; 8] = [0.1, 0.15, 0.2, 0.25, 0.28, 0.3, 0.5, 0.7];
 
-/// Largest deviation of F + 3 from the exact quasi-static limit over Fig. 2(a), and where.
+/// Returns the largest deviation of F + 3 from the exact quasi-static limit over Fig. 2(a), with its friction and
+/// stiffness.
 fn over_figure(load: impl Fn(&Stack) -> f64) -> (f64, f64, f64) {
     let compared = figure_loads().iter().map(|(stack, exact)| {
         let deviation = relative(load(stack), *exact);
         (deviation, stack.floor_friction, stack.stiffness)
     });
-    // In this order a deviation that is not a number is the largest.
+    // `total_cmp` puts NaN last, so a deviation that is not a number counts as the largest.
     let largest = compared.max_by(|left, right| left.0.total_cmp(&right.0));
     largest.unwrap_or((f64::NAN, f64::NAN, f64::NAN))
 }
 
-/// The range of the stacks of Fig. 2(a), in words.
+/// Describes the range of the stacks of Fig. 2(a).
 fn range_of_figure() -> String {
     let stacks = || figure_loads().iter().map(|(stack, _)| stack);
     let frictions: Vec<f64> = stacks().map(|stack| stack.floor_friction).collect();

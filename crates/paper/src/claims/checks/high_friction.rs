@@ -24,7 +24,7 @@ pub(crate) const CHECKS: &[Check] = &[
             values(STIFFNESS, &stiffnesses)
         );
         let deviation = worst(found.map(|mu| (mu - paper.inward_friction).abs()));
-        // Two printed digits would mean half a unit of the second.
+        // The bound is half a unit of the second digit, as if two were printed.
         Finding::new(deviation, 0.005, evidence)
     }),
     Check::theory("inward-solutions", |paper| {
@@ -41,7 +41,7 @@ pub(crate) const CHECKS: &[Check] = &[
         );
         Finding::exceptions(stacks.len() - right, evidence)
     }),
-    // Whether the bottom cylinders of a stack with μ ≥ 0.8 move inwards until they touch, y < 0.
+    // Checks whether the bottom cylinders of a stack with μ ≥ 0.8 move inwards until they touch, y < 0.
     Check::theory("non-destructive", |paper| {
         let frictions = [0.8, 0.9];
         let stacks = pairs(frictions, PAPER_STIFFNESSES);
@@ -116,7 +116,8 @@ pub(crate) const CHECKS: &[Check] = &[
         );
         Finding::new((paper.breakdown_friction - last).abs(), 0.005, evidence)
     }),
-    // Whether μ_d keeps the cylinders from slipping on each other wherever the paper has the floor yield.
+    // Checks whether μ_d keeps the cylinders from slipping on each other in all stacks that yield at the floor in the
+    // paper.
     Check::theory("cylinder-friction", |paper| {
         let frictions: Vec<f64> = (0..=10).map(|step| 0.1 + 0.04 * f64::from(step)).collect();
         let stiffnesses = [paper.lowest_stiffness, 1e3, paper.highest_stiffness];
@@ -149,7 +150,7 @@ pub(crate) const CHECKS: &[Check] = &[
 /// Friction between cylinders in compress.c of the authors' repository.
 const AUTHORS_CYLINDER_FRICTION: f64 = 0.7;
 
-/// 1/ε at which the frictions of the elastic equation are those for ε → 0, to 8 digits.
+/// 1/ε so large that the frictions of the elastic equation agree with those for ε → 0 to 8 digits.
 const NEARLY_RIGID: f64 = 1e8;
 
 fn stack(paper: &PaperTheory, mu: f64, stiffness: f64) -> Stack {
@@ -159,17 +160,17 @@ fn stack(paper: &PaperTheory, mu: f64, stiffness: f64) -> Stack {
     }
 }
 
-/// y of the elastic equation; not a number without a solution.
+/// Returns y of the elastic equation, or NaN if it has no solution.
 fn outward(paper: &PaperTheory, mu: f64, stiffness: f64) -> f64 {
     elastic_root(&stack(paper, mu, stiffness)).map_or(f64::NAN, |root| root.y)
 }
 
-/// The friction at which y of the elastic equation changes sign.
+/// Returns the friction at which y of the elastic equation changes sign.
 fn last_outward(paper: &PaperTheory, stiffness: f64) -> f64 {
     bracketed_root(|mu| outward(paper, mu, stiffness), 0.5, 1.0).unwrap_or(f64::NAN)
 }
 
-/// The floor friction above which the wall reaches cylinder 2 before the floor slips.
+/// Returns the floor friction above which the wall reaches cylinder 2 before the floor slips.
 fn wall_contact_friction(paper: &PaperTheory, stiffness: f64, rule: HistoryUpdate) -> f64 {
     let base = stack(paper, 0.3, stiffness);
     let path = EquilibriumPath::new(&base, rule);

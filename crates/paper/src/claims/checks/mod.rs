@@ -1,4 +1,4 @@
-//! The checks, by subject. Each compares what is printed with the same thing derived in another way.
+//! The checks, by subject. Each compares a printed statement with the same result derived in another way.
 
 mod appendix;
 mod contact_law;
@@ -84,7 +84,7 @@ impl Check {
 }
 
 impl Check {
-    /// The same with the published data; `None` of what these say nothing about.
+    /// Runs the check on the published data; returns `None` for a check that takes no simulations.
     pub(crate) fn run_as_published(
         &self,
         paper: &PaperTheory,
@@ -97,7 +97,7 @@ impl Check {
     }
 }
 
-/// Every check.
+/// Returns every check.
 fn all() -> impl Iterator<Item = &'static Check> {
     let groups: [&'static [Check]; 12] = [
         rigid::CHECKS,
@@ -116,7 +116,7 @@ fn all() -> impl Iterator<Item = &'static Check> {
     groups.into_iter().flatten()
 }
 
-/// The names of all checks that a register may use.
+/// Returns the names of all checks that a register may use.
 pub fn check_names() -> Vec<&'static str> {
     all().map(|check| check.name).collect()
 }

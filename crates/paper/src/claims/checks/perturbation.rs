@@ -30,7 +30,7 @@ pub(crate) const CHECKS: &[Check] = &[
         let largest = worst(pairs(frictions, RATIOS).map(|(mu, kappa)| {
             let epsilon = 1.0 / stiffness;
             let alpha = epsilon / root(mu, kappa, epsilon);
-            // F(μ, α → 0) with a step that rounding allows.
+            // F(μ, α → 0), with α no smaller than rounding allows.
             let truth = true_quotient(mu, kappa, alpha.max(1e-6));
             relative(paper.coefficient(mu, kappa), truth)
         }));
@@ -160,7 +160,7 @@ fn true_quotient(mu: f64, kappa: f64, alpha: f64) -> f64 {
     (displacement(alpha) - displacement(0.0)) / alpha
 }
 
-/// Order in ε of z(z − z⋆) − ε r² Φ at the root of the elastic equation.
+/// Returns the order in ε of z(z − z⋆) − ε r² Φ at the root of the elastic equation.
 fn order(paper: &PaperTheory, mu: f64, coarse: f64, fine: f64) -> f64 {
     let kappa = paper.stiffness_ratio;
     let left = |epsilon: f64| {
@@ -172,7 +172,7 @@ fn order(paper: &PaperTheory, mu: f64, coarse: f64, fine: f64) -> f64 {
     (left(coarse) / left(fine)).abs().ln() / (coarse / fine).ln()
 }
 
-/// Points (μ, κ, α) at which quotients keep their digits.
+/// Points (μ, κ, α) with α large enough that difference quotients keep their digits.
 fn points() -> impl Iterator<Item = (f64, f64, f64)> {
     pairs(FRICTIONS, RATIOS)
         .flat_map(|(mu, kappa)| [0.05, 0.2, 0.4, 0.6].map(|alpha| (mu, kappa, alpha)))

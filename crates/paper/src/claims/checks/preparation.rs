@@ -28,7 +28,7 @@ pub(crate) const CHECKS: &[Check] = &[
         );
         Ok(Finding::exceptions(all - without, evidence))
     }),
-    // Stacks in which every A leaves the same c.
+    // Counts the stacks in which every A leaves the same c.
     Check::runs("push-controls-contact", |_, runs| {
         let mut alike = 0;
         let mut listed = Vec::new();
@@ -39,7 +39,7 @@ pub(crate) const CHECKS: &[Check] = &[
             let contacts = pushed.iter().map(|&(_, force)| force);
             let highest = contacts.clone().fold(f64::NEG_INFINITY, f64::max);
             let spread = highest - contacts.fold(f64::INFINITY, f64::min);
-            // In m g; what ends without contact has c = 0 exactly.
+            // In m g; c is exactly 0 in runs that end without contact.
             alike += usize::from(spread.is_nan() || spread <= 1e-3);
             listed.push(format!("{} at {}", course(study, &pushed), name(study)));
         }
@@ -52,7 +52,7 @@ pub(crate) const CHECKS: &[Check] = &[
         );
         Ok(Finding::exceptions(alike, evidence))
     }),
-    // Spread of the yield force over preparations that end with c = 0.
+    // Compares the yield force after A = 0 with that after the largest A that also ends with c = 0.
     Check::runs("no-contact-specifies", |_, runs| {
         let mut shifts = Vec::new();
         let mut listed = Vec::new();
@@ -77,7 +77,7 @@ pub(crate) const CHECKS: &[Check] = &[
 
 const MISSING: &str = "there is no native study of the preparation in this reproduction";
 
-/// Pushes and the contact forces that they leave, natively under the paper's convention, sorted by push.
+/// Returns each push with the contact force that it leaves, sorted by push: native runs under the paper's convention.
 fn contact_forces(study: &PreparationStudy) -> Vec<(f64, Option<f64>)> {
     let native = Code::native();
     let rows = study.rows_of(&native, &native);
@@ -87,7 +87,7 @@ fn contact_forces(study: &PreparationStudy) -> Vec<(f64, Option<f64>)> {
     pushed
 }
 
-/// c at the push with the largest c, and where c falls again, at the largest push.
+/// Describes the largest c and, if c falls again, c at the largest push.
 fn course(study: &PreparationStudy, pushed: &[(f64, f64)]) -> String {
     let largest = pushed
         .iter()

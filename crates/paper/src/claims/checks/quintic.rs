@@ -9,7 +9,7 @@ use crate::model::CRITICAL_FRICTION;
 use crate::theory::bracketed_root;
 
 pub(crate) const CHECKS: &[Check] = &[
-    // The constant term, and −z⋆ in the coefficient of z⁴, against the elastic equation multiplied out.
+    // Compares the constant term, and −z⋆ in the coefficient of z⁴, with the elastic equation multiplied out.
     Check::theory("quintic", |paper| {
         let epsilon: f64 = 1e-2;
         let (mut constant, mut leading) = (Vec::new(), Vec::new());
@@ -151,18 +151,18 @@ const FRICTIONS: [f64; 5] = [0.1, 0.2, CRITICAL_FRICTION, 0.3, 0.5];
 /// P(z) at μ_c.
 fn polynomial(kappa: f64, epsilon: f64, z: f64) -> f64 {
     let mut table = multiplied_out(CRITICAL_FRICTION, kappa);
-    // z⋆ = 0 at μ_c up to rounding, which 1/ε² would magnify.
+    // z⋆ is 0 at μ_c; its rounding error would be magnified by 1/ε².
     table[4][0] = 0.0;
     horner(&table.map(|coefficients| horner(&coefficients, epsilon)), z)
 }
 
-/// The polynomial of `x` with these coefficients, that of the lowest power first.
+/// Evaluates the polynomial with these coefficients, lowest power first, at `x`.
 fn horner(coefficients: &[f64], x: f64) -> f64 {
     let highest_first = coefficients.iter().rev();
     highest_first.fold(0.0, |sum, coefficient| sum * x + coefficient)
 }
 
-/// The five roots at μ_c, smallest first: the negative one, the three of order ε, and the large positive one.
+/// Returns the five roots at μ_c, smallest first: the negative one, the three of order ε, and the large positive one.
 fn roots(kappa: f64, epsilon: f64) -> [f64; 5] {
     let scale = (epsilon / (CRITICAL_FRICTION * (1.0 + 4.0 * kappa * CRITICAL_FRICTION))).sqrt();
     let between = |low: f64, high: f64| {

@@ -204,7 +204,7 @@ fn direction(angle: f64) -> Vector2<f64> {
     Vector2::new(-angle.sin(), angle.cos())
 }
 
-/// Equilibria at these angles and several forces.
+/// Returns equilibria at these angles and several forces.
 fn balanced(angles: &[f64]) -> impl Iterator<Item = Balanced> {
     angles.iter().flat_map(|&angle| {
         FORCES
@@ -219,13 +219,13 @@ fn in_balance(angles: &[f64], deviation: impl Fn(&Balanced) -> f64) -> Finding {
     Finding::identity(balanced(angles).map(|state| deviation(&state)), compared)
 }
 
-/// e and d of rigid cylinders under a force in weights.
+/// Returns e and d of rigid cylinders under a force, which is given in weights.
 fn rigid_forces(force: f64) -> Option<(f64, f64)> {
     let state = equilibrium(direction(UPRIGHT), force * WEIGHT, WEIGHT)?;
     Some((state.forces.e, state.forces.d))
 }
 
-/// The conditions for a, b, c, d, e, f: stack, Coulomb, c = 0, Eqs. (1) to (3).
+/// Returns the matrix of the conditions for a, b, c, d, e, f: stack, Coulomb, c = 0, Eqs. (1) to (3).
 fn conditions(paper: &PaperTheory, mu: f64) -> Matrix6<f64> {
     let normal = direction(UPRIGHT);
     let tangent = paper.tangent(normal);
@@ -242,7 +242,7 @@ fn conditions(paper: &PaperTheory, mu: f64) -> Matrix6<f64> {
     Matrix6::from_fn(|row, column| rows[row][column])
 }
 
-/// f/(m g) at which rigid cylinders slip, by bisection of e − μ d; 0 if they slip at once, infinite if never.
+/// Returns f/(m g) at which rigid cylinders slip, by bisection of e − μ d: 0 if they slip at once, infinite if never.
 fn slip_force(mu: f64) -> f64 {
     let excess = |force: f64| rigid_forces(force).map_or(f64::NAN, |(e, d)| e - mu * d);
     let (mut low, mut high) = (0.0, 1e12);
@@ -260,8 +260,8 @@ fn slip_force(mu: f64) -> f64 {
     high
 }
 
-/// The smallest and the largest e/d of the balances over all forces. The floor slips at every force if μ is below
-/// the smallest, and at none if μ is above the largest.
+/// Returns the smallest and the largest e/d of the balances over all forces. The floor slips at every force if μ is
+/// below the smallest, and at none if μ is above the largest.
 fn ratios() -> (f64, f64) {
     let growing = (1..=400).map(|index| 10f64.powf(f64::from(index) / 25.0 - 4.0));
     let states = std::iter::once(0.0).chain(growing).filter_map(rigid_forces);

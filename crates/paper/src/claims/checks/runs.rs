@@ -1,5 +1,5 @@
-//! The paper's statements on its simulations, checked with the native DEM, which has the paper's contact law, and with the
-//! published data.
+//! The paper's statements on its simulations, checked with the native DEM, which has the paper's contact law, and
+//! with the published data.
 
 use super::Check;
 use crate::claims::finding::{Finding, relative, violation, worst};
@@ -44,7 +44,8 @@ pub(crate) const CHECKS: &[Check] = &[
         let deviation = worst([drop / highest, violation(last < 0.9 * highest)]);
         Ok(Finding::new(deviation, CIRCLE, evidence))
     }),
-    // The peak at the paper's speed is compared with the exact quasi-static limit, where the paper shows f(t).
+    // Compares the peak at the paper's speed with the exact quasi-static limit, for the stack whose f(t) the paper
+    // shows.
     Check::simulations("peak-is-quasistatic", |_, runs| {
         let series = &runs.series;
         let forces = series.peak_force.zip(series.limit);
@@ -160,7 +161,7 @@ pub(crate) const CHECKS: &[Check] = &[
         let mut below: Vec<(f64, f64)> = below.collect();
         below.sort_by(|left, right| left.0.total_cmp(&right.0));
         let &(stiffness, last) = below.last().ok_or_else(|| missing("Fig. 2(b)"))?;
-        // The most by which stiffer cylinders are farther off than softer ones.
+        // Largest amount by which stiffer cylinders are farther off than softer ones.
         let (mut closest, mut receding) = (f64::INFINITY, 0.0f64);
         for &(_, off) in &below {
             receding = receding.max(off.abs() - closest);
@@ -192,7 +193,8 @@ pub(crate) const CHECKS: &[Check] = &[
         let mut deviations = Vec::new();
         for own in &runs.exponents {
             let printed = exponent_at(own.friction, [0.0, paper.scaling_at, paper.scaling_above]);
-            // At these stiffnesses the exact limit itself has other exponents, and those that are printed for stiff cylinders.
+            // At the fitted stiffnesses the exact limit itself has other exponents; for stiff cylinders it has the
+            // printed ones.
             let farther = (own.exponent - printed).abs() - (own.exact - printed).abs();
             let [soft, stiff] = STIFF.map(|stiffness| {
                 libm::log(yield_force(&paper.stack(own.friction, stiffness)) + 3.0)
@@ -229,26 +231,27 @@ pub(crate) const CHECKS: &[Check] = &[
     }),
 ];
 
-/// Stiffnesses between which the exact limit has the exponents for ε → 0, to some digits.
+/// Stiffnesses between which the exact limit has the exponents for ε → 0, to a few digits.
 const STIFF: [f64; 2] = [1e7, 1e9];
 
-/// What "converged", "unchanged" and "is" can mean for a yield force of the figure on convergence: half the height of its circles,
-/// 6 of 43.58 points for 0.1 m g (figS3b.pdf of the authors' repository), as a part of f there.
+/// Largest difference that "converged", "unchanged" and "is" can mean for a yield force in the figure on convergence:
+/// half the height of its circles, 6 of 43.58 points for 0.1 m g (figS3b.pdf of the authors' repository), as a part
+/// of f there.
 const CIRCLE: f64 = 6.0 / 435.8 / 4.880;
 
-/// The reason for which a check cannot be made.
+/// Says why a check cannot be made.
 fn missing(name: &str) -> String {
     format!("nothing was run or published of {name}")
 }
 
-/// The number that belongs to this `value` of a setting.
+/// Returns the number that belongs to this `value` of a setting.
 fn at(points: &[(f64, f64)], value: f64) -> Option<f64> {
     let mut points = points.iter();
     let own = points.find(|(setting, _)| relative(*setting, value) < 1e-9);
     own.map(|&(_, number)| number)
 }
 
-/// Excess of the peak over the limit at a wall speed.
+/// Returns the excess of the peak over the limit at a wall speed.
 fn excess(runs: &Simulations, speed: f64) -> Option<f64> {
     at(&runs.wall_speeds, speed)
 }
@@ -260,7 +263,7 @@ fn percents(runs: &Simulations, speeds: &[f64]) -> String {
     }))
 }
 
-/// A speed of the compressing wall.
+/// Writes a speed of the compressing wall.
 fn speed(speed: f64) -> String {
     format!(r"$v_{{\mathrm{{com}}}} = {}r\sqrt{{k_n/m}}$", number(speed))
 }

@@ -178,9 +178,9 @@ pub(crate) const CHECKS: &[Check] = &[
     }),
 ];
 
-/// Deviation of an exponent that the next order causes at 1/ε = 10⁷.
+/// Deviation that the next order causes in an exponent at 1/ε = 10⁷.
 const EXPONENT: f64 = 2e-3;
-/// Stiffnesses at which the next order no longer shows.
+/// Stiffnesses at which the next order is negligible.
 const FAR: [f64; 2] = [1e7, 1e8];
 /// The frictions of Fig. 2(b).
 const BELOW: f64 = 0.25;
@@ -195,7 +195,7 @@ fn rigid_load(mu: f64) -> f64 {
     rigid.yield_force.unwrap_or(f64::INFINITY) + 3.0
 }
 
-/// Exponents of ε below, and of 1/ε at and above μ_c, between two stiffnesses.
+/// Returns exponents between two stiffnesses: of ε below μ_c, and of 1/ε at and above μ_c.
 fn exponents(paper: &PaperTheory, [from, to]: [f64; 2], load: impl Fn(&Stack) -> f64) -> [f64; 3] {
     let slope = |low: f64, high: f64| (high / low).ln() / (to / from).ln();
     let at = |mu, stiffness| load(&paper.stack(mu, stiffness));
@@ -207,7 +207,7 @@ fn exponents(paper: &PaperTheory, [from, to]: [f64; 2], load: impl Fn(&Stack) ->
     ]
 }
 
-/// Largest deviation from the exponents of Eq. (5).
+/// Returns the largest deviation from the exponents of Eq. (5).
 fn off_printed(paper: &PaperTheory, [below, at, above]: [f64; 3]) -> f64 {
     worst([
         (below - paper.scaling_below).abs(),
@@ -216,7 +216,7 @@ fn off_printed(paper: &PaperTheory, [below, at, above]: [f64; 3]) -> f64 {
     ])
 }
 
-/// F + 3 by Eq. (17).
+/// Returns F + 3 by Eq. (17).
 fn perturbative_load(paper: &PaperTheory, stack: &Stack) -> f64 {
     paper.perturbative_load(stack.floor_friction, stack.stiffness_ratio, stack.epsilon())
 }
@@ -227,7 +227,8 @@ fn listed([below, at, above]: [f64; 3]) -> String {
     )
 }
 
-/// Ratio of a naive solution to the root of the elastic equation, at 1/ε = 10⁴, 10⁶ and 10⁸.
+/// Compares a naive solution with the root of the elastic equation, at 1/ε = 10⁴, 10⁶ and 10⁸. `bound` is for the
+/// last.
 fn naive(
     paper: &PaperTheory,
     frictions: &[f64],

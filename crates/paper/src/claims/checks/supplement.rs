@@ -122,12 +122,12 @@ fn kinematics(deviation: impl Fn(&Displacements) -> f64) -> Finding {
     Finding::identity(deviations, compared)
 }
 
-/// Eqs. (S11), (S12), (S15) or (S16), by the `component` of the forces.
+/// Checks the equation for this `component` of the forces, one of (S11), (S12), (S15) and (S16).
 fn implicit(paper: &PaperTheory, component: fn(Forces) -> f64) -> Finding {
     springs(component, |moved| paper.forces(moved, RATIO))
 }
 
-/// Eqs. (S17) to (S20), by the `component` of the forces.
+/// Checks the equation for this `component` of the forces, one of (S17) to (S20).
 fn explicit(paper: &PaperTheory, component: fn(Forces) -> f64) -> Finding {
     springs(component, |moved| paper.explicit_forces(moved, RATIO))
 }

@@ -17,12 +17,12 @@ macro_rules! constants {
             /// The names of all constants.
             pub const NAMES: &'static [&'static str] = &[$(stringify!($name)),*];
 
-            /// Everything as it stands in the paper.
+            /// Returns everything as it stands in the paper.
             pub fn printed() -> Self {
                 Self { $($name: $value),* }
             }
 
-            /// The value of the constant of that name; `None` if there is none.
+            /// Returns the value of the constant of that name; `None` if there is none.
             pub fn constant(&self, name: &str) -> Option<f64> {
                 match name {
                     $(stringify!($name) => Some(self.$name),)*
@@ -30,7 +30,7 @@ macro_rules! constants {
                 }
             }
 
-            /// The constant of that name, to be changed; `None` if there is none.
+            /// Returns the constant of that name for changing it; `None` if there is none.
             pub fn constant_mut(&mut self, name: &str) -> Option<&mut f64> {
                 match name {
                     $(stringify!($name) => Some(&mut self.$name),)*
@@ -66,9 +66,9 @@ constants! {
     tangential_damping = 1.0; // Factor of η_t v in h_t = −k_t u − η_t v.
     pair_tangent_sign = -1.0; // Sign of the first component of t_ij = (−y_ij, x_ij)/r_ij.
     spin_arm = 1.0; // Factor of r (ω_i + ω_j) in the tangential velocity.
-    // Where the capped tangential force points: 0 against v_t (as printed), 1 along h_t.
+    // Direction of the capped tangential force: 0 against v_t (as printed), 1 along h_t.
     cap_along_spring = 0.0;
-    // Whose friction caps the force between cylinders: 0 μ of the floor (as printed), 1 μ_d.
+    // Friction that caps the force between cylinders: 0 μ of the floor (as printed), 1 μ_d.
     cap_of_cylinders = 0.0;
     stick_limit = 1.0; // Part of the cap below which the spring grows: |h_t| < μ |f_n|.
     arm_order = 2.0; // Order in the displacements of the torque that a changed arm adds.
@@ -145,7 +145,7 @@ constants! {
 }
 
 impl PaperTheory {
-    /// The same with one constant changed; `None` if there is none of that name.
+    /// Returns a copy with one constant changed; `None` if there is none of that name.
     pub fn with(&self, name: &str, value: f64) -> Option<Self> {
         let mut changed = self.clone();
         *changed.constant_mut(name)? = value;

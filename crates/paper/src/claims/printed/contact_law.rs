@@ -66,12 +66,12 @@ impl PaperTheory {
         }
     }
 
-    /// Whether u grows: |h_t| < μ |f_n|.
+    /// Returns whether u grows: |h_t| < μ |f_n|.
     pub(crate) fn sticks(&self, contact: &Sliding) -> bool {
         self.sticking_force(contact).abs() < self.stick_limit * contact.cap
     }
 
-    /// The friction coefficient that caps the force between two cylinders.
+    /// Returns the friction coefficient that caps the force between two cylinders.
     pub(crate) fn friction_between_cylinders(&self, floor_friction: f64) -> f64 {
         if self.cap_of_cylinders == 0.0 {
             floor_friction

@@ -41,7 +41,7 @@ impl PaperTheory {
         epsilon.powf(self.quintic_constant_order) * coefficient.powf(self.quintic_constant_scaled)
     }
 
-    /// r √(ε/(μ_c (1 + 4κμ_c))), Eq. (13) at μ_c and above it.
+    /// r √(ε/(μ_c (1 + 4κμ_c))), in Eq. (13) at μ_c and in the text above it.
     pub(crate) fn critical_displacement(&self, kappa: f64, epsilon: f64, radius: f64) -> f64 {
         let critical = self.critical_friction;
         let compliance = critical * (1.0 + self.critical_compliance * kappa * critical);
@@ -62,8 +62,8 @@ impl PaperTheory {
         e0 * d + d0 * e + self.cross_term * alpha * d * e
     }
 
-    /// D or E from 𝒟(μ, α) = 𝒟(μ, 0) + α D(μ, α), or the same for ℰ; at small α by central differences, which
-    /// are exact to α² there.
+    /// Returns D from 𝒟(μ, α) = 𝒟(μ, 0) + α D(μ, α), or the same for ℰ. At small α it takes central differences,
+    /// which are exact to α² there.
     fn quotient(&self, alpha: f64, function: impl Fn(f64) -> f64) -> f64 {
         const STEP: f64 = 1e-3;
         if alpha.abs() > STEP {

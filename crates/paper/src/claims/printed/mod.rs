@@ -1,5 +1,5 @@
-//! The paper as printed. Every formula is evaluated as it stands, with the constants of [`PaperTheory`]; the
-//! checks find out which of them are wrong.
+//! The paper as printed. Every formula is evaluated as it stands, with the constants of [`PaperTheory`]; the checks
+//! show which formulas are wrong.
 
 mod appendix;
 mod constants;

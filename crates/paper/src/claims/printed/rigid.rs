@@ -6,7 +6,7 @@ use crate::model::Stack;
 use nalgebra::Vector2;
 
 impl PaperTheory {
-    /// A stack with the paper's stiffness ratio.
+    /// Returns a stack with the paper's stiffness ratio.
     pub(crate) fn stack(&self, friction: f64, stiffness: f64) -> Stack {
         Stack {
             stiffness_ratio: self.stiffness_ratio,

@@ -65,7 +65,7 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
     Ok(written)
 }
 
-/// The files of a site.
+/// Returns the files of a site.
 fn layout() -> Layout {
     let files = [
         "atlas.csv",

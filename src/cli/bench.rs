@@ -68,7 +68,7 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
     }
 }
 
-/// The named codes with native, or else the installed ones.
+/// Returns the named codes with native, or else the installed ones.
 fn timed_codes(named: &[Code]) -> Result<Vec<SettledCode>, CliError> {
     if named.is_empty() {
         return Ok(during(
@@ -112,7 +112,7 @@ fn time_stack(
     Ok(printed.max(written))
 }
 
-/// How lanes scale, for a terminal.
+/// Describes how lanes scale, for a terminal.
 fn scaling_text(measured: &Scaling) -> String {
     let (cases, cores) = (scaling(&measured.cases), scaling(&measured.cores));
     format!(

@@ -1,4 +1,4 @@
-//! Names of codes on the command line: of the built-in ones, of folders by their path, and of folders in the user's data
+//! Names of codes on the command line: built-in codes, folders by their path, and folders in the user's data
 //! directory.
 
 use crate::code::{Code, ManifestError};
@@ -45,7 +45,7 @@ impl TypedValueParser for CodeParser {
     }
 }
 
-/// The code that `text` names, as [`CodeParser`] has it; `None` if none has this name.
+/// Returns the code that `text` names, in the form that [`CodeParser`] reads; `None` if no code has this name.
 pub(super) fn code_named(text: &str) -> Option<Result<Code, ManifestError>> {
     let known = Code::named(text).map(Ok);
     known.or_else(|| match text.contains('/') {
@@ -54,7 +54,7 @@ pub(super) fn code_named(text: &str) -> Option<Result<Code, ManifestError>> {
     })
 }
 
-/// What to say of `text`, which is the name of no code.
+/// Returns the message for `text` that is not the name of a code.
 pub(super) fn unknown(text: &str) -> String {
     let hint = match Path::new(text).is_dir() {
         true => format!("; did you mean the folder `./{text}`?"),
@@ -66,14 +66,14 @@ pub(super) fn unknown(text: &str) -> String {
     )
 }
 
-/// The names, and the form of a folder.
+/// Returns the names, and the form of a folder.
 fn shown_names() -> Vec<String> {
     let mut names = names();
     names.push("./FOLDER".to_owned());
     names
 }
 
-/// The names of the codes that are known, and of the user's folders.
+/// Returns the names of the built-in codes and of the user's folders.
 fn names() -> Vec<String> {
     let known = Code::built_in()
         .into_iter()
@@ -87,12 +87,12 @@ fn names() -> Vec<String> {
     names
 }
 
-/// The code in the folder at the path `text`, or in `PATH:NAME`.
+/// Reads the code in the folder at the path `text`, or in `PATH:NAME`.
 pub(super) fn code_in_folder(text: &str) -> Result<Code, ManifestError> {
     in_folder(Path::new(""), text)
 }
 
-/// The code that `text` names in a folder whose path begins in `directory`: PATH or PATH:NAME.
+/// Reads the code that `text`, PATH or PATH:NAME, names below `directory`.
 fn in_folder(directory: &Path, text: &str) -> Result<Code, ManifestError> {
     match text.rsplit_once(':') {
         Some((folder, name)) if !name.contains('/') => {
@@ -102,26 +102,26 @@ fn in_folder(directory: &Path, text: &str) -> Result<Code, ManifestError> {
     }
 }
 
-/// The code of one of the user's folders that `text` names: by the name of the folder, or by its own.
+/// Finds the code that `text` names in one of the user's folders, by the name of the folder or by its own.
 fn of_user(text: &str) -> Option<Result<Code, ManifestError>> {
     let directory = user_directory()?;
     let folder = text.split(':').next().unwrap_or(text);
     if !folder.is_empty() && folder != ".." && directory.join(folder).is_dir() {
         return Some(in_folder(&directory, text));
     }
-    // Broken folders stay out of the way of the others.
+    // A broken folder does not keep the others from being found.
     let folders = user_folders().into_iter();
     let codes = folders.filter_map(|folder| Code::all_in_folder(&folder).ok());
     let mut codes = codes.flatten();
     codes.find(|code| code.as_str() == text).map(Ok)
 }
 
-/// The place of the user's folders.
+/// Returns the directory of the user's folders.
 fn user_directory() -> Option<PathBuf> {
     dirs::data_dir().map(|data| data.join("tristack").join("codes"))
 }
 
-/// The user's folders, in the order of their names.
+/// Returns the user's folders, sorted by name.
 fn user_folders() -> Vec<PathBuf> {
     let directory = user_directory().and_then(|directory| std::fs::read_dir(directory).ok());
     let entries = directory.into_iter().flatten().flatten();
@@ -131,7 +131,7 @@ fn user_folders() -> Vec<PathBuf> {
     folders
 }
 
-/// The codes of this program and those of the user's folders, and what is wrong with the other folders.
+/// Returns the codes of this program and of the user's folders, and the errors of the other folders.
 pub(super) fn known_codes() -> (Vec<Code>, Vec<ManifestError>) {
     let (mut known, mut errors) = (Code::built_in(), Vec::new());
     for folder in user_folders() {

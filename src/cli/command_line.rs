@@ -1,4 +1,4 @@
-//! The command line that a result carries, to produce it again.
+//! The command line that a result carries, so that it can be produced again.
 
 use crate::model::shell_quoted;
 use std::ffi::OsString;
@@ -18,7 +18,7 @@ const LEFT_OUT: [&str; 9] = [
 ];
 const LEFT_OUT_FLAGS: [&str; 3] = ["--fresh", "--shared-store", "--quiet"];
 
-/// `tristack` with those of its `arguments`, the first of which is the program, on which the results depend.
+/// Returns `tristack` with the arguments on which the results depend. The first of `arguments` is the program.
 pub(super) fn command_line(arguments: &[OsString]) -> String {
     let mut line = "tristack".to_owned();
     let mut words = arguments.iter().skip(1);

@@ -1,4 +1,4 @@
-//! Conventions that manifests leave out, measured before a command plans anything by them.
+//! Conventions that manifests leave out: they are measured before a command plans with them.
 
 use super::options::RunOptions;
 use super::progress::Reporter;
@@ -7,7 +7,8 @@ use crate::code::{Code, SettledCode};
 use crate::runs::{Progress, SelectedCode, Settings};
 use crate::study::convention;
 
-/// The conventions of `codes`, in their order; says on standard error what was measured where manifests leave something out.
+/// Settles the conventions of `codes`, in their order. Says on standard error what was measured where manifests leave
+/// something out.
 pub(super) fn settle(
     codes: &[SelectedCode],
     options: &RunOptions,
@@ -23,7 +24,7 @@ pub(super) fn settle(
     }
 }
 
-/// The same with these settings.
+/// Does the same with these settings.
 pub(super) fn settle_with(
     codes: &[SelectedCode],
     settings: &Settings,
@@ -44,7 +45,7 @@ pub(super) fn settle_with(
     told.collect()
 }
 
-/// The convention of one code, which is looked up where its manifest leaves something out.
+/// Settles the convention of one code, which is looked up only if its manifest leaves something out.
 pub(super) fn settle_one(code: &Code, options: &RunOptions) -> Result<SettledCode, CliError> {
     if let Some(declared) = code.as_declared() {
         return Ok(declared);
@@ -53,7 +54,8 @@ pub(super) fn settle_one(code: &Code, options: &RunOptions) -> Result<SettledCod
     Ok(settled.into_iter().next().expect("one for each code"))
 }
 
-/// What the probe of `code` has put in place of the keys that are left out.
+/// Says what the probe of `code` has measured for the keys that its manifest leaves out, and which of them stay
+/// unknown.
 fn tell_settled(code: &SettledCode) {
     let (settled, code) = (code.settled(), code.name());
     let left_out = code.declaration().left_out;

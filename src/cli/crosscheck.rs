@@ -69,7 +69,7 @@ pub(super) struct Arguments {
     pub format: Format,
 }
 
-/// The options that say nothing about the published numbers.
+/// Returns the options that conflict with the published numbers.
 fn not_of_published() -> Vec<clap::Id> {
     let own = ["law", "explain", "shortcuts"].map(clap::Id::from);
     let others = options_of::<StackOptions>().into_iter();
@@ -122,7 +122,7 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
     Ok(found.max(written))
 }
 
-/// The files that [`publish`] writes.
+/// Returns the files that [`publish`] writes.
 pub(super) fn layout() -> Layout {
     let files = [
         "crosscheck.csv",
@@ -134,11 +134,11 @@ pub(super) fn layout() -> Layout {
     Layout::tables("crosscheck.json", &files)
 }
 
-/// The page on what contact laws do, and its figure.
+/// The page on the effects of contact laws, and its figure.
 const LAWS: &str = "laws.md";
 const LAWS_FIGURE: &str = "laws.svg";
 
-/// Prints the rows, and writes them if there is a directory and none is left out.
+/// Prints the rows, and writes them if there is a directory and no row is missing.
 pub(super) fn publish(
     (judgements, is_whole): (&[Judgement], bool),
     rows: &RowOptions,

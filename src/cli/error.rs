@@ -13,8 +13,8 @@ use crate::study::yield_force::{Judgement, NoYield};
 use std::path::Path;
 use thiserror::Error;
 
-/// The exit status of the program, from best to worst: of several rows the worst counts. A disagreement that was found
-/// is worse than a code that failed, which shows nothing.
+/// The exit status of the program, from best to worst; the worst of several rows counts. A disagreement that was
+/// found is worse than a code that failed, which shows nothing.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum ExitStatus {
     /// All rows agree, or there was nothing to judge.
@@ -34,7 +34,7 @@ pub enum ExitStatus {
 }
 
 impl ExitStatus {
-    /// The number given to the shell.
+    /// Returns the number given to the shell.
     pub fn code(self) -> u8 {
         match self {
             Self::Success => 0,
@@ -48,13 +48,14 @@ impl ExitStatus {
         }
     }
 
-    /// The worst of the rows.
+    /// Returns the worst status of the rows.
     pub(super) fn of(judgements: &[Judgement]) -> Self {
         let each = judgements.iter().map(Self::of_row);
         each.max().unwrap_or(Self::Success)
     }
 
-    /// The status of one row. A stack that does not yield where theory expects no yield is no disagreement.
+    /// Returns the status of one row. A stack that does not yield where theory expects no yield is not a
+    /// disagreement.
     pub(super) fn of_row(judgement: &Judgement) -> Self {
         match judgement.verdict() {
             _ if judgement.passes() => Self::Success,
@@ -63,7 +64,7 @@ impl ExitStatus {
         }
     }
 
-    /// The status that goes with one verdict, where a yield was expected.
+    /// Returns the status for one verdict, where a yield was expected.
     pub(super) fn of_verdict(verdict: Verdict) -> Self {
         match verdict {
             Verdict::Agrees => Self::Success,
@@ -104,7 +105,7 @@ pub enum CliError {
     /// The register of claims is wrong.
     #[error(transparent)]
     Register(#[from] RegisterError),
-    /// The user, or the time that is left, did not wait for the micro-tests on which everything else depends.
+    /// The user or the time limit interrupted the micro-tests on which everything else depends.
     #[error(
         "interrupted while conventions that manifests leave out were being measured; what is finished is kept, and the same \
          command goes on from here"
@@ -115,8 +116,8 @@ pub enum CliError {
     CodeFailed(#[from] Box<Failure>),
 }
 
-/// The message with control characters escaped, since paths may hold any; that of a case file has several lines
-/// on purpose.
+/// Escapes control characters in the message, since paths may hold any. The message of a case file stays as it is: it
+/// has several lines on purpose.
 fn in_one_line(error: &FileError) -> String {
     match error {
         FileError::Case(error) => error.to_string(),
@@ -135,7 +136,7 @@ impl From<BenchError> for CliError {
 }
 
 impl CliError {
-    /// The exit status of a command that stops with this error.
+    /// Returns the exit status of a command that stops with this error.
     pub fn status(&self) -> ExitStatus {
         match self {
             Self::CodeFailed(failure) => match failure.kind {

@@ -22,7 +22,7 @@ pub(super) struct RowName {
 
 /// Reads CODE/MU/STIFFNESS.
 pub(super) fn row_name(text: &str) -> Result<RowName, String> {
-    // The path of a folder may have more parts.
+    // The path of a folder may contain further slashes.
     let parts: Vec<&str> = text.rsplitn(3, '/').collect();
     let [stiffness, mu, code] = parts[..] else {
         return Err("accepted is CODE/MU/STIFFNESS, as in yade/0.3/100".to_owned());
@@ -44,7 +44,8 @@ pub(super) fn row_name(text: &str) -> Result<RowName, String> {
     })
 }
 
-/// Measures one row in the way of the profile of `stacks` and with their other parameters, and prints every step from its runs to its verdict.
+/// Measures one row by the profile of `stacks` and with their other parameters, and prints every step from its runs
+/// to its verdict.
 pub(super) fn explain(
     row: &RowName,
     stacks: &StackSet,

@@ -12,7 +12,7 @@ use std::path::Path;
 const SUMMARY: &str = "summary.json";
 const SERIES: &str = "series.csv";
 
-/// Runs the `case` of the file at `path`, prints and writes what it shows.
+/// Runs the `case` of the file at `path`, and prints and writes the results.
 pub(super) fn run(
     arguments: &Arguments,
     case: &GivenCase,
@@ -49,7 +49,7 @@ pub(super) fn run(
     Ok(printed.max(written))
 }
 
-/// What only a prepared stack has, and any code but native.
+/// Refuses options that apply only to a prepared stack, and any code but native.
 fn refuse(arguments: &Arguments) -> Result<(), CliError> {
     let invalid = |key: &str, value: String, accepted: &str| InvalidValue {
         key: key.to_owned(),

@@ -43,7 +43,7 @@ pub(super) struct Arguments {
 }
 
 impl Arguments {
-    /// The codes that are named, or else every code whose law has the power that is asked for.
+    /// Returns the named codes, or else every code with the law that is asked for, by default the paper's.
     fn codes(&self) -> Result<Vec<SelectedCode>, CliError> {
         let Some(power) = self.convention.law.power() else {
             return selected_codes(&self.codes.named);
@@ -56,7 +56,7 @@ impl Arguments {
     }
 }
 
-/// Carries out and compares, prints and writes the rows.
+/// Carries out and compares the impacts, and prints and writes the rows.
 pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, CliError> {
     let mut codes = arguments.codes()?;
     let layout = Layout::tables("impacts.json", &["impacts.csv", "impacts.md"]);

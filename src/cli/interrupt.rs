@@ -1,5 +1,4 @@
-//! The end before the end: interrupts by the user (Ctrl-C, `kill`, closing the terminal), and the time that a command
-//! has at most.
+//! Early stops: interrupts by the user (Ctrl-C, `kill`, closing the terminal), and the time limit of a command.
 
 use super::{ExitStatus, complain, tell};
 use crate::code::{Interrupt, let_interrupt_questions};
@@ -9,9 +8,9 @@ use signal_hook::iterator::Signals;
 use std::sync::LazyLock;
 use std::time::{Duration, Instant};
 
-/// Longest time that is kept back for the end: killing programs takes five seconds at most, keeping results far less.
+/// Longest time that is kept back for the end: killing programs takes at most five seconds, keeping results far less.
 const LONGEST_RESERVE: Duration = Duration::from_secs(30);
-/// The part of the time that is kept back, unless that is longer.
+/// The time is divided by this for the part that is kept back, up to [`LONGEST_RESERVE`].
 const RESERVE: u32 = 10;
 
 /// Set when the user interrupts the program, or its time is up.
@@ -45,8 +44,8 @@ pub(super) fn interrupted_after(done: usize, planned: usize, subjects: &str) -> 
     ExitStatus::Interrupted
 }
 
-/// Lets everything end before the time `left` has passed since the program began: a tenth of it is kept back, half a
-/// minute at most.
+/// Ends everything before the time `left` has passed since the program began. A tenth of it is kept back, at most
+/// half a minute.
 pub(super) fn end_within(left: Duration) {
     let usable = left - LONGEST_RESERVE.min(left / RESERVE);
     if INTERRUPT.limit(*START, usable) {
@@ -64,7 +63,7 @@ fn receive(signal: i32) {
     }
 }
 
-/// Stops everything because the time is up, as batch systems announce it with SIGUSR1.
+/// Stops everything because the time is up, which batch systems announce with SIGUSR1.
 fn end_time() {
     if !INTERRUPT.end_time() {
         std::thread::spawn(|| {
@@ -85,8 +84,8 @@ fn interrupt() {
     });
 }
 
-/// The signals that interrupt. SIGHUP is left alone if it was ignored at the start, as under `nohup`. SIGINT is not,
-/// although shells start background jobs with it ignored: there it is only sent on purpose.
+/// Returns the signals that interrupt. SIGHUP is left alone if it was ignored at the start, as under `nohup`. SIGINT
+/// is not, although shells start background jobs with it ignored: there it is only sent on purpose.
 fn wanted() -> Vec<i32> {
     let status = system_text("/proc/self/status").unwrap_or_default();
     let stays = ignored(&status) >> (SIGHUP - 1) & 1 == 1;
@@ -95,7 +94,7 @@ fn wanted() -> Vec<i32> {
     signals
 }
 
-/// The mask of ignored signals in the `status` of a process.
+/// Returns the mask of ignored signals in the `status` of a process.
 fn ignored(status: &str) -> u64 {
     let mask = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
     mask.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok())

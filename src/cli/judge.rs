@@ -14,7 +14,7 @@ use clap::Args;
 use std::fmt::Display;
 use std::path::{Path, PathBuf};
 
-/// The version of a program that nobody has named.
+/// Version of a program, unless `--code-version` says it.
 const UNKNOWN_VERSION: &str = "unknown";
 
 /// Judge results that were made elsewhere
@@ -97,7 +97,7 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
     Ok(found.max(published))
 }
 
-/// Accepts text that tables show as it is.
+/// Accepts one line of text, which tables show as it is.
 fn one_line(text: &str) -> Result<String, String> {
     match text.chars().any(char::is_control) || text.is_empty() {
         true => Err("accepted is one line of text".to_owned()),
@@ -105,7 +105,7 @@ fn one_line(text: &str) -> Result<String, String> {
     }
 }
 
-/// The code of the plan.
+/// Finds the code of the plan, or checks that `--code` is that code.
 fn code(arguments: &Arguments, plan: &Plan, path: &Path) -> Result<Code, CliError> {
     let refused = |message: String| FileError::content(path, message);
     if let Some(code) = &arguments.code {
@@ -163,7 +163,7 @@ fn tell_results(plan: &Plan, code: &Code, root: &Path) {
     }
 }
 
-/// Settings for runs that are read: a store of its own, which is thrown away.
+/// Returns settings for runs that are read: with a store of its own, which is thrown away.
 fn settings(scratch: &Path) -> Result<Settings<'static>, CliError> {
     let threads = std::thread::available_parallelism();
     Ok(Settings {
@@ -176,7 +176,7 @@ fn settings(scratch: &Path) -> Result<Settings<'static>, CliError> {
     })
 }
 
-/// Reading files takes no time, and the rows say what is wrong.
+/// Reports warnings only: reading files takes no time, and the rows say what is wrong.
 struct Quiet;
 
 impl Progress for Quiet {

@@ -17,9 +17,10 @@ use crate::theory::quasistatic_limit;
 use clap::Args;
 use std::path::{Path, PathBuf};
 
-/// Largest series that is read, in bytes; that of a code.
+/// Largest series that is read, in bytes; the same as for the series of a code.
 const LARGEST_SERIES: u64 = 256 << 20;
-/// Largest relative distance of two numbers that are the same but for their rounding, as in the times of a series.
+/// Largest relative difference between two numbers that are the same except for rounding, as in the times of a
+/// series.
 const ROUNDING: f64 = 1e-9;
 
 /// The options of series that nobody has planned.
@@ -166,21 +167,21 @@ fn judge(arguments: &SeriesArguments) -> Result<JudgedSeries, CliError> {
     judged.ok_or_else(|| unknown_speed(arguments.series.len()).into())
 }
 
-/// So few series of a stack that yields, for which theory does not know what the speed adds.
+/// Returns the error for too few series of a stack for which theory does not know what the wall's speed adds.
 fn unknown_speed(series: usize) -> InvalidValue {
     let accepted = "three or more files: what the wall's speed adds is not known where cylinders 2 and 3 press on each \
                     other at the onset, where springs are rescaled, and where the floor does not slip first";
     InvalidValue::new("--series", series as f64, accepted)
 }
 
-/// The arms in the passport at `path`.
+/// Reads the arms in the passport at `path`.
 fn passport(path: &Path) -> Result<MeasuredArms, FileError> {
     let text = read_bounded(path, LARGEST_PASSPORT, Links::Followed);
     let text = text.map_err(FileError::reading(path))?;
     MeasuredArms::of_passport(&text).map_err(|error| FileError::content(path, error))
 }
 
-/// The series at their speeds, which differ, and with one time step.
+/// Reads the series; their speeds must differ, and their time steps must be the same.
 fn at_speeds(
     arguments: &SeriesArguments,
     of: (&Stack, &ContactLaw),
@@ -205,8 +206,8 @@ fn at_speeds(
     Ok(series)
 }
 
-/// The series of `stack` in `file`, which must show, under a `wall` of this law, the wall speed that `flag` says, and the expected
-/// time step.
+/// Reads the series of `stack` in `file`. It must show the expected time step and, under a `wall` of this law, the
+/// wall speed that `flag` says.
 fn read(
     (flag, file): (&str, &Path),
     wall_speed: f64,

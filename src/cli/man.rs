@@ -8,7 +8,7 @@ use clap::{Args, Command};
 use clap_mangen::Man;
 use std::path::PathBuf;
 
-/// The page of the program itself, by which a directory of pages is known again.
+/// The page of the program itself, which marks a directory of pages as ours.
 const FIRST: &str = "tristack.1";
 
 /// Print the manual page of a command, or write those of all commands
@@ -42,7 +42,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
     Ok(print(&page(command).1))
 }
 
-/// The pages of `command` and of all below it, each by its file.
+/// Returns the pages of `command` and of all commands below it, each with its file name.
 fn pages(command: &Command) -> Vec<(String, String)> {
     let below = command.get_subcommands().flat_map(pages);
     std::iter::once(page(command)).chain(below).collect()

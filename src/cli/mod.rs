@@ -99,7 +99,7 @@ enum Command {
     Guard(guard::Arguments),
 }
 
-/// The grammar for readers and shells: without what the program asks of itself.
+/// Returns the grammar for readers and shells, without the commands with which the program calls itself.
 fn public_grammar() -> Grammar {
     let all = grammar();
     let visible = all.get_subcommands().filter(|own| !own.is_hide_set());
@@ -125,8 +125,8 @@ pub fn check(arguments: impl IntoIterator<Item = OsString>) -> Result<(), clap::
     GRAMMAR.with_borrow_mut(|grammar| parsed(grammar, arguments).map(drop))
 }
 
-/// The grammar of the command line. What follows an option that takes a value may be a negative number, so that the
-/// option itself says what it accepts.
+/// Returns the grammar of the command line. Options that take a value accept negative numbers here, so that the
+/// parser of the option itself says what it accepts.
 fn grammar() -> Grammar {
     let takes_numbers = |option: clap::Arg| {
         let takes_values = option.get_action().takes_values();

@@ -23,13 +23,13 @@ impl<'a> Out<'a> {
         })
     }
 
-    /// The `directory`, which has been claimed, for a layout with this `witness`.
+    /// Takes a `directory` that has been claimed for a layout with this `witness`.
     pub(super) fn claimed(directory: &'a Path, witness: &'static str) -> Self {
         let directory = Some(directory);
         Self { directory, witness }
     }
 
-    /// The same if the result `is_whole`: after an interrupt, which left rows out, nothing is written.
+    /// Writes files if the result `is_whole`: after an interrupt that left rows out, nothing is written.
     pub(super) fn write_whole<N: AsRef<str>, C: AsRef<[u8]>>(
         &self,
         is_whole: bool,
@@ -41,8 +41,8 @@ impl<'a> Out<'a> {
         }
     }
 
-    /// Writes files, given by name and content, if there is a directory for them. A file that cannot be written is named
-    /// on standard error.
+    /// Writes files, given by name and content, if there is a directory for them. A file that cannot be written is
+    /// named on standard error.
     pub(super) fn write<N: AsRef<str>, C: AsRef<[u8]>>(
         &self,
         files: impl FnOnce() -> Vec<(N, C)>,
@@ -51,7 +51,7 @@ impl<'a> Out<'a> {
             return ExitStatus::Success;
         };
         let mut files = files();
-        // The directory is known by its witness, so that nothing may be there without it.
+        // The witness, by which the directory is recognized, is written first, so that nothing is there without it.
         files.sort_by_key(|(name, _)| name.as_ref() != self.witness);
         let mut worst = ExitStatus::Success;
         for (name, content) in &files {

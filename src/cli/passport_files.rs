@@ -1,4 +1,4 @@
-//! Passports on file.
+//! Passports and verdicts in files.
 
 use crate::files::{FileError, Links, read_bounded};
 use crate::output::Problem;
@@ -11,14 +11,14 @@ pub(super) const LARGEST_PASSPORT: u64 = 1 << 20;
 /// Largest file of verdicts that is read, in bytes.
 const LARGEST_VERDICTS: u64 = 1 << 26;
 
-/// The passport in the file at `path`.
+/// Reads the passport in the file at `path`.
 pub(super) fn read_passport(path: &Path) -> Result<NamedPassport, FileError> {
     let text = read_bounded(path, LARGEST_PASSPORT, Links::Followed);
     let text = text.map_err(FileError::reading(path))?;
     NamedPassport::read(text).map_err(|error| FileError::content(path, error))
 }
 
-/// All passports in `directory`, every JSON file of which is one under its permanent name.
+/// Reads all passports in `directory`; every JSON file there must be one, under its permanent name.
 pub(super) fn read_passports(directory: &Path) -> Result<Vec<NamedPassport>, FileError> {
     let files = json_files(directory, "tristack probe --passports DIR")?;
     let passports = files.into_iter().map(|(name, path)| {
@@ -35,7 +35,7 @@ pub(super) fn read_passports(directory: &Path) -> Result<Vec<NamedPassport>, Fil
     passports.collect()
 }
 
-/// All verdicts in `directory`, each under the name of its problem.
+/// Reads all verdicts in `directory`, each under the name of its problem.
 pub(super) fn read_verdicts(directory: &Path) -> Result<Vec<Problem>, FileError> {
     let files = json_files(
         directory,
@@ -51,7 +51,7 @@ pub(super) fn read_verdicts(directory: &Path) -> Result<Vec<Problem>, FileError>
     problems.collect()
 }
 
-/// Name and path of every JSON file in `directory`, which `made` writes.
+/// Returns name and path of every JSON file in `directory`. If there is none, the error says what `made` such files.
 fn json_files(directory: &Path, made: &str) -> Result<Vec<(String, PathBuf)>, FileError> {
     let entries = std::fs::read_dir(directory).map_err(FileError::reading(directory))?;
     let paths = entries.flatten().map(|entry| entry.path());

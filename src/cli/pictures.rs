@@ -36,14 +36,14 @@ impl Pictures {
         Ok(())
     }
 
-    /// The first flag that asks for a picture, and its value.
+    /// Returns the first flag that asks for a picture, and its value.
     pub(super) fn named(&self) -> Option<(&'static str, &Path)> {
         let all = [("--svg", &self.svg), ("--vtk", &self.vtk)];
         let mut named = all.into_iter();
         named.find_map(|(flag, path)| Some((flag, path.as_deref()?)))
     }
 
-    /// The files of the pictures that are asked for in the directory of the results, `out`.
+    /// Returns the files of the requested pictures that lie in the directory of the results, `out`.
     pub(super) fn files_in(&self, out: Option<&Path>) -> Vec<String> {
         let mut files: Vec<String> = inside(out, self.svg.as_deref()).into_iter().collect();
         if let Some(vtk) = inside(out, self.vtk.as_deref()) {
@@ -57,7 +57,7 @@ impl Pictures {
         files
     }
 
-    /// Writes those that are asked for, of a run by `code`.
+    /// Writes the requested pictures of a run by `code`.
     pub(super) fn draw(&self, code: &Code, run: &Run) -> Result<ExitStatus, CliError> {
         let mut status = ExitStatus::Success;
         if self.svg.is_none() && self.vtk.is_none() {
@@ -87,7 +87,7 @@ enum Format {
 }
 
 impl Format {
-    /// The format that the name of `file` says.
+    /// Returns the format that the name of `file` says.
     fn of(file: &Path) -> Result<Self, InvalidValue> {
         let ending = file.extension().map(|ending| ending.to_ascii_lowercase());
         match ending.as_ref().and_then(|ending| ending.to_str()) {
@@ -109,14 +109,14 @@ impl Format {
     }
 }
 
-/// The path of `place` in the directory `out`, if it lies there.
+/// Returns the path of `place` within the directory `out`, if it lies there.
 fn inside(out: Option<&Path>, place: Option<&Path>) -> Option<String> {
     let [out, place] = [out?, place?].map(|path| std::path::absolute(path).ok());
     let inside = place?.strip_prefix(out?).ok()?.to_str()?.to_owned();
     Some(inside)
 }
 
-/// The files for ParaView.
+/// Returns the files for ParaView.
 fn vtk_layout() -> Layout {
     Layout {
         witness: VTK_COLLECTION,
@@ -141,8 +141,8 @@ fn remove_vtk_rows(directory: &Path) -> Result<(), FileError> {
     Ok(())
 }
 
-/// Every sampled moment of the run. The native DEM runs again, with bitwise the same result, because its series
-/// leaves out the forces between the cylinders.
+/// Returns every sampled moment of the run. The native DEM runs again, with bitwise the same result, because its
+/// series leaves out the forces between the cylinders.
 fn frames(code: &Code, run: &Run) -> Result<Frames, CliError> {
     if !code.is_native() {
         return Ok(Frames::of_series(&run.series, &run.case)?);

@@ -16,7 +16,7 @@ use std::time::Duration;
 const START: &str = "start.txt";
 const PARALLEL: &str = "parallel.txt";
 const SLURM: &str = "array.slurm";
-/// Time that a task on a cluster is given: so many seconds for its start, and so many times the forecast of its run.
+/// Time that a task on a cluster is given: these seconds for its start, and this multiple of the forecast of its run.
 const STARTING: f64 = 60.0;
 const SLOWER: f64 = 10.0;
 
@@ -91,7 +91,7 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
     Ok(listed.max(printed))
 }
 
-/// The rows of the earlier plan, which must be one for the same code, and those that are asked for.
+/// Returns the rows of the earlier plan, which must be for the same code, and those that are asked for.
 fn rows(arguments: &Arguments, earlier: Option<&Plan>) -> Result<Vec<PlannedRow>, CliError> {
     let code = arguments.code.clone();
     let mut rows = Vec::new();
@@ -118,7 +118,7 @@ fn rows(arguments: &Arguments, earlier: Option<&Plan>) -> Result<Vec<PlannedRow>
     Ok(rows)
 }
 
-/// The runs that have no usable result yet.
+/// Returns the runs that have no usable result yet.
 fn open_runs<'a>(plan: &'a Plan, troubles: &[Option<FailureKind>]) -> Vec<&'a PlannedRun> {
     let runs = plan.runs.iter().zip(troubles);
     let open = runs.filter(|(_, trouble)| trouble.is_some());
@@ -126,7 +126,7 @@ fn open_runs<'a>(plan: &'a Plan, troubles: &[Option<FailureKind>]) -> Vec<&'a Pl
 }
 
 fn lists(code: &Code, open: &[&PlannedRun]) -> Vec<(&'static str, String)> {
-    // The limit of runs here is generous; a partition may refuse it.
+    // The time limit of runs on this machine is generous; a partition of a cluster may refuse it.
     let limit = |run: &PlannedRun| {
         let forecast = Duration::try_from_secs_f64(STARTING + SLOWER * run.seconds).ok();
         let forecast = forecast.filter(|_| run.seconds > 0.0);
@@ -147,7 +147,7 @@ fn layout() -> Layout {
     }
 }
 
-/// What is planned, what it costs, and what to do next.
+/// Says what is planned, what it costs, and what to do next.
 fn summary(plan: &Plan, troubles: &[Option<FailureKind>], root: &Path) -> String {
     let open = open_runs(plan, troubles);
     let directory = shell_quoted(&shown(root));

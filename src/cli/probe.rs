@@ -95,15 +95,15 @@ fn file(directory: &Path, passports: &[Passport], command: &str) -> ExitStatus {
     worst
 }
 
-/// The file by which a directory with passports is known; no code has an underscore in its name.
+/// The file that marks a directory with passports; no code has an underscore in its name.
 const ALL_CODES: &str = "all_codes.json";
 
-/// The files that are written.
+/// Returns the files that are written.
 fn layout() -> Layout {
     Layout::tables(ALL_CODES, &["all_codes.csv", "*.json", "*.md"])
 }
 
-/// Whether no interrupt has left a code out.
+/// Returns whether no interrupt has left a code out.
 fn is_whole(probed: &[Probed]) -> bool {
     !INTERRUPT.requested() || probed.iter().all(Result::is_ok)
 }

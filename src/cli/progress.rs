@@ -11,31 +11,31 @@ use std::time::{Duration, Instant};
 
 /// Time between two lines of progress, where there is no bar.
 const BETWEEN_LINES: Duration = Duration::from_secs(30);
-/// Time between two pictures of the bar while nothing advances.
+/// Time between two redraws of the bar while nothing advances.
 const BETWEEN_PICTURES: Duration = Duration::from_millis(120);
-/// Share of the work, and time, after which the time left can be estimated.
+/// Share of the work, and time, that must have passed before the time left is estimated.
 const ENOUGH_TO_ESTIMATE: (f64, Duration) = (0.02, Duration::from_secs(3));
 
-/// Does some `work` of which nothing can be counted, and shows the name of the `phase` meanwhile.
+/// Does some `work` whose progress cannot be counted, and shows the name of the `phase` meanwhile.
 pub(super) fn during<T>(phase: &str, work: impl FnOnce() -> T) -> T {
     let reporter = Reporter::new();
     reporter.begins(phase);
     work()
 }
 
-/// Reports progress on standard error, and removes the bar in the end.
+/// Reports progress on standard error, and removes the bar at the end.
 pub(super) struct Reporter {
     /// In nanoseconds of expected work; hidden where there is no terminal.
     bar: ProgressBar,
     phase: Mutex<Phase>,
 }
 
-/// What is being done.
+/// The work that is being done.
 struct Phase {
     name: String,
     begun: Instant,
     last_line: Instant,
-    /// Results to make, those that are made, and those of them that failed.
+    /// Results to make, those that are finished, and those of them that failed.
     open: usize,
     finished: usize,
     failed: usize,
@@ -53,7 +53,7 @@ impl Phase {
         }
     }
 
-    /// The line that ends a phase in which something was made.
+    /// Returns the line that ends a phase in which something had to be made.
     fn summary(&self) -> Option<String> {
         let made = self.finished - self.failed;
         let failed = match self.failed {
@@ -92,7 +92,7 @@ impl Reporter {
         }
     }
 
-    /// The phase, which stays valid even if a thread panicked while it held it.
+    /// Returns the phase, which stays valid even if a thread panicked while it held it.
     fn phase(&self) -> MutexGuard<'_, Phase> {
         self.phase.lock().unwrap_or_else(PoisonError::into_inner)
     }
@@ -114,7 +114,7 @@ fn style(template: &str) -> ProgressStyle {
     })
 }
 
-/// The time that is left when this share of the work took `elapsed`.
+/// Says how much time is left when this share of the work took `elapsed`.
 fn time_left(done: f64, elapsed: Duration) -> String {
     let (share, time) = ENOUGH_TO_ESTIMATE;
     if done < share || elapsed < time {
@@ -124,7 +124,7 @@ fn time_left(done: f64, elapsed: Duration) -> String {
     format!("about {} left", duration(Duration::from_secs_f64(left)))
 }
 
-/// A duration as people say it.
+/// Writes a duration as people say it.
 fn duration(duration: Duration) -> String {
     match duration.as_secs_f64() {
         seconds if seconds < 10.0 => format!("{seconds:.1} s"),
@@ -141,7 +141,7 @@ impl Progress for Reporter {
         }
         self.end(&phase);
         *phase = Phase::new(name);
-        // A change of the length draws the bar, which has its style by then.
+        // Changing the length draws the bar, which has its style by then.
         self.bar
             .set_style(style("{spinner} {prefix}, {elapsed} elapsed"));
         self.bar.set_prefix(name.to_owned());
@@ -184,7 +184,7 @@ impl Progress for Reporter {
     fn finished(&self, code: &Code, task: &dyn Display, result: Result<Option<f64>, &Failure>) {
         let (finished, open) = {
             let mut phase = self.phase();
-            // An interrupted run is neither made nor has it failed.
+            // An interrupted run counts neither as made nor as failed.
             let is_interrupted = matches!(result, Err(failure) if failure.is_interrupted());
             phase.finished += usize::from(!is_interrupted);
             phase.failed += usize::from(result.is_err() && !is_interrupted);

@@ -72,7 +72,7 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
     Ok(status(&published).max(printed).max(written))
 }
 
-/// The checkout that --published names.
+/// Reads the checkout that --published names.
 pub(super) fn checkout(directory: &Path) -> Result<Checkout, CliError> {
     if !Checkout::is_in(directory) {
         return Err(InvalidValue {
@@ -86,7 +86,7 @@ pub(super) fn checkout(directory: &Path) -> Result<Checkout, CliError> {
     Ok(Checkout::read(directory)?)
 }
 
-/// The exit status: a number of which nothing is known that gives it is a result.
+/// Returns the exit status. A number that no known run gives is a result, not an error.
 pub(super) fn status(published: &Published) -> ExitStatus {
     let statuses = published.fits().map(|fit| match fit {
         Fit::EveryDigit | Fit::Alike | Fit::Unknown => ExitStatus::Success,

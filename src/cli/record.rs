@@ -119,7 +119,7 @@ fn make(
     settings: &Settings,
     progress: &dyn Progress,
 ) -> Result<(), RunError> {
-    // Series of linear springs alone are kept: those of the nine Hertz styles would take more than twice their space.
+    // Only series of linear springs are kept: those of the nine Hertz styles would take more than twice their space.
     let is_paper = selected.name.has_power(Power::Linear);
     let wanted = |set: Set| {
         let asked = only.is_none_or(|only| only == set);

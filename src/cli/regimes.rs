@@ -87,7 +87,7 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
     Ok(conclude(&survey).max(printed).max(written))
 }
 
-/// The files that are written.
+/// Returns the files that are written.
 fn layout() -> Layout {
     let files = [
         "regimes.csv",

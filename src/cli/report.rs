@@ -17,7 +17,7 @@ use crate::study::yield_force::Judgement;
 use clap::Args;
 use std::path::PathBuf;
 
-/// Most rows that are named where the exit status is explained.
+/// Largest number of rows that are named when the exit status is explained.
 const MOST_ROWS: usize = 10;
 
 /// Write the reproducibility report for the paper
@@ -95,7 +95,8 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
     Ok(found.max(written))
 }
 
-/// The codes with a law of this `power` among those that were `named`, and the native one; all where none was.
+/// Returns the codes with a law of this `power` among those that were `named`, and the native one; all such codes if
+/// none was named.
 fn codes_of(named: &[Code], power: Power) -> Result<Vec<SelectedCode>, CliError> {
     if named.is_empty() {
         return Ok(find_all(&Code::of_power(power)));
@@ -105,7 +106,7 @@ fn codes_of(named: &[Code], power: Power) -> Result<Vec<SelectedCode>, CliError>
     selected_codes(&own)
 }
 
-/// The files of a report.
+/// Returns the files of a report.
 fn layout() -> Layout {
     let files = [
         "report.html",
@@ -161,7 +162,7 @@ fn conclude(reproduction: &Reproduction, claims: &[ClaimJudgement]) -> ExitStatu
     status
 }
 
-/// A row, its verdict and the reason.
+/// Describes a row, its verdict and the reason.
 fn said_of(row: &Judgement) -> String {
     format!(
         "{} at mu = {}, stiffness {}: {}: {}",

@@ -96,7 +96,7 @@ pub(super) struct Arguments {
     pub(super) format: Format,
 }
 
-/// The options whose values a case file holds.
+/// Returns the options whose values a case file holds.
 fn replaced_by_case() -> Vec<Id> {
     let run = ["preparation", "push", "speed", "dt", "shortcuts"];
     let mut options: Vec<Id> = run.map(Id::from).into();
@@ -144,7 +144,7 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
             (SUMMARY, json(&tables, command).into_bytes()),
         ]
     };
-    // The directory is known by the case, so that nothing may be there without it.
+    // The directory is recognized by the case, so that nothing may be there without it.
     let written = match begun {
         ExitStatus::Success => out.write(results),
         failed => failed,
@@ -156,7 +156,7 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
     Ok(printed.max(written).max(drawn))
 }
 
-/// Says which durations are not those of the case: rows lie at whole steps, and phases begin at rows.
+/// Says which durations differ from those of the case: rows lie at whole steps, and phases begin at rows.
 fn tell_changed_durations(case: &Case) {
     for (key, asked, made) in case.protocol.changed_durations() {
         tell!(
@@ -173,7 +173,7 @@ fn execute_in_scratch(
 ) -> Result<Run, CliError> {
     let scratch = tempfile::Builder::new().prefix("tristack-").tempdir();
     let scratch = scratch.map_err(FileError::writing(&std::env::temp_dir()))?;
-    // What a program writes beside its run directory goes with it.
+    // The run directory is one level down: files that a program writes beside it are in the temporary directory too.
     let outcome = execute(code, case, limit, &scratch.path().join("run"));
     if let Err(failure) = &outcome
         && failure.left_evidence()
@@ -247,7 +247,7 @@ fn case(arguments: &Arguments, code: &SettledCode) -> Result<Case, CliError> {
     Ok(case)
 }
 
-/// The usual protocol, at a wall speed if one is given.
+/// Returns the usual protocol, at a wall speed if one is given.
 fn planned(
     limit: &Limit,
     stack: &Stack,
@@ -262,7 +262,7 @@ fn planned(
     protocol.ok_or_else(|| Box::new(no_yield(stack, convention, limit)))
 }
 
-/// The case of which a file says a part: the rest is as for a case of the command line.
+/// Completes a case that a file gives in part; the rest is as for a case of the command line.
 fn completed(written: &PartialCase, code: &SettledCode) -> Result<Case, InvalidValue> {
     let own = &written.protocol;
     let convention = written.convention.unwrap_or_else(|| of_files(code));
@@ -284,8 +284,8 @@ fn completed(written: &PartialCase, code: &SettledCode) -> Result<Case, InvalidV
     })
 }
 
-/// What a case file for `code` means that says nothing of the convention: springs turn in files, unless these say otherwise,
-/// whatever the command line means.
+/// Returns the convention of a case file for `code` that gives none: that of the code or, if the code takes any, the
+/// default of case files, in which springs turn whatever the default of the command line.
 fn of_files(code: &SettledCode) -> ContactConvention {
     match code.name().accepts_any_convention() {
         true => ContactConvention::default(),
@@ -293,7 +293,7 @@ fn of_files(code: &SettledCode) -> ContactConvention {
     }
 }
 
-/// A case file with every key, and what each means: the paper's stack.
+/// Returns a case file for the paper's stack, with every key and what it means.
 fn example() -> Result<String, CliError> {
     let written = PartialCase {
         stack: Stack::paper(EXAMPLE_FRICTION, EXAMPLE_STIFFNESS).into(),
@@ -306,7 +306,7 @@ fn example() -> Result<String, CliError> {
     )?))
 }
 
-/// `protocol` with the preparation of the command line.
+/// Returns `protocol` with the preparation of the command line.
 fn prepared(
     protocol: &Protocol,
     arguments: &Arguments,
@@ -336,11 +336,11 @@ const CASE: &str = "case.json";
 const SERIES: &str = "series.csv";
 const SERIES_COLUMNS: &str = "series.csv-metadata.json";
 const SUMMARY: &str = "summary.json";
-/// What is written after the run.
+/// Files that are written after the run.
 const RESULTS: [&str; 3] = [SERIES, SERIES_COLUMNS, SUMMARY];
 
-/// Removes the results of an earlier run from the directory, if one is given, because they must not stand beside the deck
-/// of this run, and writes the case. A disk that is full is told, and no reason not to run.
+/// Removes the results of an earlier run from the directory, if one is given, because they must not stand beside the
+/// deck of this run, and writes the case. A full disk is reported, but does not prevent the run.
 fn begin(directory: Option<&Path>, case: &Case) -> Result<ExitStatus, FileError> {
     let Some(directory) = directory else {
         return Ok(ExitStatus::Success);
@@ -357,7 +357,7 @@ fn begin(directory: Option<&Path>, case: &Case) -> Result<ExitStatus, FileError>
     }
 }
 
-/// The files of a run in the directory of `--out`, with pictures that are asked for in the same place.
+/// Returns the files of a run in the directory of `--out`, with pictures that are asked for in the same place.
 fn run_layout(arguments: &Arguments, case: &Case) -> Layout {
     let mut files = arguments.code().run_files(case);
     files.extend(RESULTS.map(str::to_owned));
@@ -372,7 +372,7 @@ fn run_layout(arguments: &Arguments, case: &Case) -> Layout {
 }
 
 impl Arguments {
-    /// The code, which is not asked for an example.
+    /// Returns the code; native if none is given, which only `--example` allows.
     pub(super) fn code(&self) -> Code {
         self.code.clone().unwrap_or(Code::native())
     }

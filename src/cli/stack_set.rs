@@ -11,8 +11,8 @@ const OWN_FRICTIONS: &str = "; with --stiffness and without --profile they make 
     choose rows of the profile";
 const OWN_STIFFNESSES: &str = "; with --mu and without --profile they make stacks of their own, otherwise they choose rows of the profile";
 
-/// Largest relative distance of a friction from that of the row that it names. Those of a profile differ by more than a
-/// hundredth, and people write the critical one with few digits.
+/// Largest relative difference between a friction and that of the row that it names. Frictions of a profile differ by
+/// more than a hundredth, and people write the critical one with few digits.
 const FEW_DIGITS: f64 = 1e-5;
 
 /// What `--profile` chooses.
@@ -53,7 +53,7 @@ pub(super) struct StackSet {
 }
 
 impl StackSet {
-    /// The profile, in whose way stacks are measured.
+    /// Returns the profile by whose method stacks are measured.
     ///
     /// # Errors
     /// If the published numbers are asked for, which are not measured.
@@ -73,13 +73,13 @@ impl StackSet {
         }
     }
 
-    /// Whether the published numbers are asked for.
+    /// Returns whether the published numbers are asked for.
     pub fn is_published(&self) -> bool {
         self.profile == Some(Chosen::Published)
     }
 
-    /// The codes that measure them by a law of this power: of other laws than the paper's, the quick profile has one of
-    /// each folder.
+    /// Returns the codes that measure the stacks by a law of this power. For other laws than the paper's, the quick
+    /// profile has one code of each folder.
     pub fn codes(&self, power: Power) -> Result<Vec<Code>, InvalidValue> {
         let mut codes = Code::of_power(power);
         if power != Power::Linear && self.profile()? == Profile::Quick {
@@ -88,7 +88,7 @@ impl StackSet {
         Ok(codes)
     }
 
-    /// The measurements of the stacks by each of `codes`, by a law of this power.
+    /// Returns the measurements of the stacks by each of `codes`, by a law of this power.
     pub fn measurements(
         &self,
         codes: &[SettledCode],
@@ -113,7 +113,7 @@ impl StackSet {
         }
     }
 
-    /// The stacks that are asked for in place of those of a profile.
+    /// Returns the stacks that are asked for in place of those of a profile.
     fn own_stacks(&self, power: Power) -> Result<Option<Vec<Stack>>, InvalidValue> {
         let (None, Some(frictions), Some(stiffnesses)) = (self.profile, &self.mu, &self.stiffness)
         else {
@@ -139,7 +139,7 @@ impl StackSet {
         stacks.map(stack).collect()
     }
 
-    /// Those of the `rows` of the profile that --mu and --stiffness choose. Each value must choose one.
+    /// Returns those `rows` of the profile that --mu and --stiffness choose. Each value must choose at least one.
     fn chosen(&self, mut rows: Vec<Measurement>) -> Result<Vec<Measurement>, InvalidValue> {
         if let Some(Values(asked)) = &self.stiffness {
             let is = |row: &Measurement, stiffness: &Stiffness| row.stack.stiffness == stiffness.0;
@@ -163,7 +163,8 @@ impl StackSet {
     }
 }
 
-/// The `rows` that a value of `flag` chooses, or the values that it could have if one of them chooses none.
+/// Returns the `rows` that a value of `flag` chooses. If a value chooses none, the error lists those that would
+/// choose some.
 fn filtered<Q>(
     mut rows: Vec<Measurement>,
     flag: &str,

@@ -115,7 +115,7 @@ fn kinds() -> impl TypedValueParser<Value = EntryKind> {
 }
 
 impl Choice {
-    /// Those of `contents` that are meant.
+    /// Returns those of `contents` that are meant.
     fn of(&self, contents: Vec<Content>) -> Vec<Content> {
         let selection = Selection {
             kinds: self.kind.clone(),
@@ -123,7 +123,7 @@ impl Choice {
             before: self.older_than,
             outdated: self.outdated,
         };
-        // Broken folders are others' concern.
+        // Broken folders are reported by other commands.
         selection.of(contents, &mut CodesOfToday::new(known_codes().0))
     }
 }
@@ -137,7 +137,7 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
     }
 }
 
-/// The directory of a store and what it holds; nothing where there is no store.
+/// Returns the directory of a store and what it holds; a store that does not exist holds nothing.
 fn open(options: &StoreOptions) -> Result<(PathBuf, Vec<Content>), CliError> {
     let root = options.directory()?;
     let found = contents(&root, options.sharing())?;
@@ -183,7 +183,7 @@ fn show(arguments: &ShowArguments, command: &str) -> Result<ExitStatus, CliError
     Ok(arguments.format.print(&tables, command, people))
 }
 
-/// Those of `contents` that have the `address`; if there are none, those whose addresses begin with it.
+/// Returns those of `contents` that have the `address`; if there are none, those whose addresses begin with it.
 fn with_address(mut contents: Vec<Content>, address: &str) -> Vec<Content> {
     let is_whole = contents.iter().any(|one| one.entry.name == address);
     contents.retain(|one| match is_whole {
@@ -193,7 +193,7 @@ fn with_address(mut contents: Vec<Content>, address: &str) -> Vec<Content> {
     contents
 }
 
-/// The error for an address that is none, or the beginning of several.
+/// Returns the error for an address that does not exist, or for the beginning of several.
 fn not_one(address: &str, named: &[Content], root: &Path) -> InvalidValue {
     let accepted = match named {
         [] => format!(

@@ -12,12 +12,12 @@ pub(super) fn be_quiet() {
     QUIET.store(true, Ordering::Relaxed);
 }
 
-/// Whether standard error is left to errors and warnings.
+/// Returns whether standard error is left to errors and warnings.
 pub(super) fn is_quiet() -> bool {
     QUIET.load(Ordering::Relaxed)
 }
 
-/// Writes an error or a warning as a line to standard error; a closed pipe is no reason to stop.
+/// Writes an error or a warning as a line to standard error. A failure to write, as to a closed pipe, is ignored.
 macro_rules! complain {
     ($($message:tt)*) => {{
         use std::io::Write as _;
@@ -36,7 +36,7 @@ macro_rules! tell {
 
 pub(crate) use {complain, tell};
 
-/// Writes results to standard output; a closed pipe is no error, and any other one is told.
+/// Writes results to standard output. A closed pipe is not an error; any other failure is reported.
 pub(crate) fn print(text: &str) -> ExitStatus {
     let mut output = std::io::stdout().lock();
     let written = output

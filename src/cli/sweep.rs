@@ -18,7 +18,8 @@ use crate::study::yield_force::{Judgement, plan};
 use clap::Args;
 use std::path::PathBuf;
 
-/// Stacks that are measured together. The memory of their runs, some 10 kB per stack, is freed before the next.
+/// Number of stacks that are measured together. The memory of their runs, some 10 kB per stack, is freed before the
+/// next.
 const STACKS_AT_ONCE: usize = 2000;
 
 /// Measure a yield curve: yield force against floor friction
@@ -53,7 +54,7 @@ pub(super) struct Arguments {
     format: Format,
 }
 
-/// `judgement` without its runs and their cases, which are not printed and would fill the memory.
+/// Returns `judgement` without its runs and their cases, which are not printed and would fill the memory.
 fn without_runs(mut judgement: Judgement) -> Judgement {
     judgement.study.cases = Vec::new();
     if let Some(finding) = &mut judgement.finding {

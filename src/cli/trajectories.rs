@@ -75,7 +75,7 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
     Ok(found.max(printed).max(written))
 }
 
-/// The plans for the codes, each under its own convention.
+/// Returns the plans for the codes, each under its own convention.
 pub(super) fn plans(codes: &[SettledCode], bodies: u8) -> Vec<Trajectory> {
     let plan = |code: &SettledCode| {
         let convention = code.convention();

@@ -1,4 +1,4 @@
-//! The cost of steps and yield forces.
+//! Tables of the cost of steps and yield forces.
 
 use super::number::{one_digit, plain};
 use super::table::{Columns, DataTable};
@@ -8,24 +8,24 @@ use crate::study::cost::{BenchTarget, PyramidCost, Scaling, ScalingRow, StackCos
 
 const BYTES_PER_MEGABYTE: f64 = 1e6;
 
-/// A cost beside that of native lanes, where these were measured.
+/// The cost of one target and that of native lanes, if they were measured.
 type StackRow<'a> = (&'a StackCost, Option<&'a StackCost>);
-/// A cost beside that of native with the same pyramid.
+/// The cost of one code and that of the native code for the same pyramid, if it was measured.
 type PyramidRow<'a> = (&'a PyramidCost, Option<&'a PyramidCost>);
 
-/// Each of `costs` beside that of native lanes.
+/// Pairs each of `costs` with that of native lanes.
 pub(super) fn beside_lanes(costs: &[StackCost]) -> Vec<StackRow<'_>> {
     let mut all = costs.iter();
     let lanes = all.find(|cost| cost.target == BenchTarget::NativeLanes);
     costs.iter().map(|cost| (cost, lanes)).collect()
 }
 
-/// The cost of a step, as a multiple of that in native lanes.
+/// Returns the cost of a step as a multiple of that in native lanes.
 pub(super) fn times_lanes((cost, lanes): &StackRow) -> Option<f64> {
     lanes.map(|lanes| cost.median() / lanes.median())
 }
 
-/// The cost of the stack, one row per target.
+/// Returns the table of the cost of the stack, one row per target.
 pub(crate) fn bench(costs: &[StackCost]) -> DataTable<'_> {
     Columns::<StackRow>::new(
         "bench",
@@ -78,13 +78,13 @@ pub(crate) fn bench(costs: &[StackCost]) -> DataTable<'_> {
     .rows(beside_lanes(costs))
 }
 
-/// The machine, and the number of cases in its vectors.
+/// Names the machine and the number of lanes (cases) in its widest vectors.
 pub(crate) fn bench_machine() -> String {
     let lanes = LaneWidth::widest().lanes();
     format!("{}, {lanes} lanes a vector", machine())
 }
 
-/// The cost of a step over the number of cases and cores.
+/// Returns the table of the cost of a step over the number of cases and cores.
 pub(crate) fn scaling<'a>(rows: impl IntoIterator<Item = &'a ScalingRow>) -> DataTable<'a> {
     Columns::<&ScalingRow>::new(
         "scaling",
@@ -106,7 +106,7 @@ pub(crate) fn scaling<'a>(rows: impl IntoIterator<Item = &'a ScalingRow>) -> Dat
     .rows(rows)
 }
 
-/// Both tables with the machine, as Markdown.
+/// Formats the machine, the table of costs and both tables of scaling as Markdown.
 pub(crate) fn bench_markdown(costs: &[StackCost], measured: &Scaling) -> String {
     format!(
         "Machine: {}.\n\n{}\nNumber of cases on one core, in lanes:\n\n{}\n\
@@ -118,7 +118,7 @@ pub(crate) fn bench_markdown(costs: &[StackCost], measured: &Scaling) -> String 
     )
 }
 
-/// The cost of a step of pyramids. In `costs`, those of one pyramid are adjacent.
+/// Returns the table of the cost of a step of pyramids. Costs of one pyramid must be adjacent in `costs`.
 pub fn pyramids(costs: &[PyramidCost]) -> DataTable<'_> {
     let same_pyramid = costs.chunk_by(|one, other| one.rows == other.rows);
     let rows = same_pyramid.flat_map(|costs| {

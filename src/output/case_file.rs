@@ -21,11 +21,11 @@ pub(super) fn case_schema<T: JsonSchema>() -> Value {
     generator.into_root_schema_for::<T>().to_value()
 }
 
-/// `case` as a TOML file, each key below its description.
+/// Formats `case` as a TOML file with a description above each key.
 pub(crate) fn commented_case(case: &Case) -> String {
     let mut table = toml::Table::try_from(case).unwrap_or_default();
     let law = case.convention.law;
-    // Linear springs are not written otherwise.
+    // Serialization leaves out the law of linear springs; this inserts it.
     if let Some(convention) = table
         .get_mut("convention")
         .and_then(|own| own.as_table_mut())
@@ -47,12 +47,12 @@ fn in_order(law: &Law) -> String {
 
 struct CommentedFile {
     text: String,
-    /// The same values with their keys in the order of the declarations.
+    /// The same values as JSON, with their keys in the order of the declarations.
     in_order: String,
 }
 
 impl CommentedFile {
-    /// Values first: in TOML what follows a table belongs to it.
+    /// Writes values before tables: in TOML, keys that follow a table header belong to that table.
     fn write(&mut self, path: &[&str], table: &toml::Table, schema: &Value) {
         let mut entries: Vec<_> = table.iter().collect();
         entries.sort_by_key(|(key, value)| {
@@ -72,7 +72,8 @@ impl CommentedFile {
     }
 }
 
-/// The schema of the property `key`; where it says which of several alternatives this is, with all of them.
+/// Returns the schema of the property `key`. If `key` holds the word that tells alternatives apart, the schema lists
+/// all of them.
 fn described(schema: &Value, key: &str) -> Value {
     let found = property(schema, key).cloned().unwrap_or_default();
     if found["const"].is_null() {
@@ -87,7 +88,7 @@ fn described(schema: &Value, key: &str) -> Value {
     json!({ "description": "One of:", "oneOf": words.collect::<Vec<_>>() })
 }
 
-/// The schema of the property `key`, in the first alternative that has it.
+/// Returns the schema of the property `key`: that of `schema` itself, or of the first alternative that has it.
 fn property<'a>(schema: &'a Value, key: &str) -> Option<&'a Value> {
     let own = schema["properties"].get(key);
     own.or_else(|| alternatives(schema).find_map(|part| property(part, key)))
@@ -98,7 +99,7 @@ fn alternatives(schema: &Value) -> impl Iterator<Item = &Value> {
     parts.into_iter().flatten().flatten()
 }
 
-/// The description of a key as comments, with the words that it may have.
+/// Formats the description of a key as TOML comments, followed by the words that it accepts.
 fn comment(schema: &Value) -> String {
     let description = schema["description"].as_str().unwrap_or_default();
     let mut lines: Vec<String> = description.lines().map(str::to_owned).collect();

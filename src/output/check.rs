@@ -1,9 +1,9 @@
-//! The items of a check.
+//! The items of a check, as a table and as text.
 
 use super::table::{Columns, DataTable};
 use crate::study::check::{Grade, Item, Outcome, Report};
 
-/// One row an item.
+/// Returns the table of a check, one row per item.
 pub(crate) fn check(items: &[Item]) -> DataTable<'_> {
     Columns::<&Item>::new(
         "check",
@@ -25,7 +25,7 @@ pub(crate) fn check(items: &[Item]) -> DataTable<'_> {
     .rows(items)
 }
 
-/// For people: item by item, each failure with what was expected, found, and what fits.
+/// Formats a report for people, item by item; a failure says what was expected, what was found, and what fits.
 pub(crate) fn check_text(report: &Report) -> String {
     let mut text = String::new();
     let mut grade = None;

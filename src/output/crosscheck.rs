@@ -1,4 +1,4 @@
-//! The rows of a crosscheck.
+//! Tables and pages of a crosscheck.
 
 use super::number::{digits, friction, one_digit, relative, small};
 use super::table::{Columns, DataTable};
@@ -10,7 +10,7 @@ use crate::study::{MAX_TOLERANCE, MIN_TOLERANCE, Source, Verdict};
 
 const MODEL_FORM: &str = "distance of the limit with arms and spring of the code from the paper's, relative to F + n + 1";
 
-/// The rows.
+/// Returns the table of a crosscheck, one row per stack and code.
 pub(crate) fn crosscheck(judgements: &[Judgement]) -> DataTable<'_> {
     Columns::<&Judgement>::new(
         "crosscheck",
@@ -74,7 +74,7 @@ pub(crate) fn crosscheck(judgements: &[Judgement]) -> DataTable<'_> {
     .rows(judgements)
 }
 
-/// The verdicts on the rows of each code.
+/// Returns the table that counts the verdicts on the rows of each code.
 pub(crate) fn crosscheck_summary(judgements: &[Judgement]) -> DataTable<'_> {
     let mut codes: Vec<Code> = Vec::new();
     for row in judgements {
@@ -116,7 +116,7 @@ pub(crate) fn crosscheck_summary(judgements: &[Judgement]) -> DataTable<'_> {
             .means(meaning);
         let has_any =
             verdict == Verdict::Agrees || codes.iter().any(|code| count(code, verdict) > 0);
-        // People see no verdict that no row has, but that all agree or none.
+        // Tables for people show a verdict only if some row has it; `agrees` is always shown.
         if has_any {
             columns = columns.shown(verdict.as_str());
         }
@@ -138,7 +138,7 @@ pub(crate) fn crosscheck_summary(judgements: &[Judgement]) -> DataTable<'_> {
         .rows(codes.clone())
 }
 
-/// The verdicts as columns of a summary.
+/// The columns of the summary that count verdicts: name, meaning, verdict.
 const VERDICTS: [(&str, &str, Verdict); 6] = [
     ("agrees", "number of rows that agree", Verdict::Agrees),
     ("differs", "number of rows that differ", Verdict::Differs),
@@ -160,7 +160,7 @@ const VERDICTS: [(&str, &str, Verdict); 6] = [
     ),
 ];
 
-/// The parts of the uncertainty of every row, and the convergence of its runs.
+/// Returns the table of the parts of the uncertainty of every row with a slip onset, and the convergence of its runs.
 pub(crate) fn budget(judgements: &[Judgement]) -> DataTable<'_> {
     let mut columns = Columns::<(&Judgement, &Extrapolation)>::new(
         "budget",
@@ -180,7 +180,7 @@ pub(crate) fn budget(judgements: &[Judgement]) -> DataTable<'_> {
             .means(part.meaning());
         let absent = |slip: &Extrapolation| (part.value)(&slip.budget).is_none();
         let mut slips = judgements.iter().filter_map(Judgement::slip).peekable();
-        // People see no column without a number.
+        // Tables for people leave out a part that no row has.
         if slips.peek().is_none() || !slips.all(absent) {
             columns = columns.shown_as(part.heading, one_digit);
         }
@@ -210,7 +210,7 @@ fn evidence() -> String {
     format!("\n## Evidence, strongest first\n\n{}", tiers.concat())
 }
 
-/// The codes and the rows for a terminal.
+/// Formats the codes and the rows for a terminal.
 pub(crate) fn crosscheck_text(judgements: &[Judgement]) -> String {
     let rows = crosscheck(judgements);
     codes(judgements).shown().terminal()
@@ -219,7 +219,7 @@ pub(crate) fn crosscheck_text(judgements: &[Judgement]) -> String {
         + beyond_onset(judgements)
 }
 
-/// A line for rows whose force rises beyond the onset of slip.
+/// Returns a note if the force of any row rises beyond the onset of slip.
 fn beyond_onset(judgements: &[Judgement]) -> &'static str {
     let rises = |row: &Judgement| row.judged_reference() != row.reference_force();
     match judgements.iter().any(rises) {
@@ -231,7 +231,7 @@ fn beyond_onset(judgements: &[Judgement]) -> &'static str {
     }
 }
 
-/// A page with the rows, their meaning, and the notes on rows that do not agree.
+/// Formats a page with the rows, their meaning, and their notes.
 pub(crate) fn crosscheck_markdown(judgements: &[Judgement], command: &str) -> String {
     let command = markdown_code(command);
     let mut page = format!(
@@ -263,7 +263,7 @@ pub(crate) fn crosscheck_markdown(judgements: &[Judgement], command: &str) -> St
     page + &remarks
 }
 
-/// What is crosschecked.
+/// Returns the words for the crosschecked stack in the title.
 fn title(judgements: &[Judgement]) -> &'static str {
     match judgements.first().map(|row| row.study.stack.bodies) {
         Some(3) => "a sphere on three",
@@ -273,7 +273,8 @@ fn title(judgements: &[Judgement]) -> &'static str {
     }
 }
 
-/// The command that explains one of the rows, from the same runs, which can be made here.
+/// Returns a sentence on the command that explains a row from the same runs. It is empty if any row comes from result
+/// files, since such runs are not made here.
 fn explaining(judgements: &[Judgement]) -> String {
     if judgements.iter().any(|row| row.source == Source::Files) {
         return String::new();
@@ -299,7 +300,7 @@ fn remark(row: &Judgement) -> String {
     format!("- **{code}, mu = {mu}, stiffness = {stiffness}: {verdict}**\n\n  {notes}\n")
 }
 
-/// For people: one row per code, with the version, source and arms that its rows share.
+/// Returns a table for people, one row per code with the version, source and arms that its rows share.
 fn codes(judgements: &[Judgement]) -> DataTable<'_> {
     let shared = |row: &Judgement| {
         let arms = row.study.convention.arms;

@@ -1,10 +1,10 @@
-//! What differs between two passports.
+//! Tables of the differences between two passports.
 
 use super::number::{digits, one_digit, optional, or_dash, plain, relative, significant};
 use super::table::{Columns, DataTable};
 use crate::study::atlas::{Change, ForceChange};
 
-/// The rules and properties that are others.
+/// Returns the table of the rules and properties that differ.
 pub(crate) fn passport_changes(changes: &[Change]) -> DataTable<'_> {
     Columns::<&Change>::new(
         "passport_changes",
@@ -37,7 +37,7 @@ pub(crate) fn passport_changes(changes: &[Change]) -> DataTable<'_> {
     .rows(changes)
 }
 
-/// What the arms of two passports make of the yield force.
+/// Returns the table of yield forces under the arms of two passports.
 pub(crate) fn passport_forces(forces: &[ForceChange]) -> DataTable<'_> {
     Columns::<&ForceChange>::new(
         "passport_forces",
@@ -68,7 +68,7 @@ pub(crate) fn passport_forces(forces: &[ForceChange]) -> DataTable<'_> {
     .rows(forces)
 }
 
-/// A number to nine digits; a word as it is.
+/// Formats a number to nine digits; a word stays as it is.
 fn cell(value: Option<&str>) -> String {
     let number = value.and_then(|text| text.parse::<f64>().ok());
     match number {

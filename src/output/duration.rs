@@ -1,4 +1,4 @@
-//! How long runs will take.
+//! Forecasts of how long runs will take.
 
 use super::number::{optional, plain};
 use super::table::{Columns, DataTable};
@@ -7,7 +7,7 @@ use crate::study::cost::{Basis, CodeDuration};
 const SECONDS_PER_MINUTE: f64 = 60.0;
 const SECONDS_PER_HOUR: f64 = 3600.0;
 
-/// How long the runs of each code will take.
+/// Returns the table of forecasts, one row per code.
 pub(crate) fn code_durations(rows: &[CodeDuration]) -> DataTable<'_> {
     Columns::<&CodeDuration>::new(
         "time",
@@ -49,21 +49,21 @@ pub(crate) fn code_durations(rows: &[CodeDuration]) -> DataTable<'_> {
     .rows(rows)
 }
 
-/// How long all of it takes.
+/// The forecast for the runs of all codes together.
 pub(crate) struct AllDurations {
-    /// Runs at the same time.
+    /// Number of runs at the same time.
     pub(crate) jobs: usize,
-    /// Runs that are to be made.
+    /// Number of runs to be made.
     pub(crate) runs: usize,
-    /// Their steps.
+    /// Time steps of these runs.
     pub(crate) steps: u64,
-    /// Seconds of one core.
+    /// Time on one core, in seconds.
     pub(crate) core_seconds: f64,
-    /// Seconds with all jobs.
+    /// Time until the last run ends, with all jobs, in seconds.
     pub(crate) seconds: f64,
 }
 
-/// The runs of all codes together.
+/// Returns the table of totals over all codes.
 pub(crate) fn all_durations(all: &[AllDurations]) -> DataTable<'_> {
     Columns::<&AllDurations>::new(
         "time-total",
@@ -83,7 +83,7 @@ pub(crate) fn all_durations(all: &[AllDurations]) -> DataTable<'_> {
     .rows(all)
 }
 
-/// The same in a sentence, with what it is based on.
+/// Formats the table for a terminal, names the codes whose forecast is that of the manifest, and gives the totals.
 pub(crate) fn durations_text(rows: &[CodeDuration], all: &AllDurations) -> String {
     let sentence = to_make(rows, all);
     let by_manifest = rows.iter().filter(|row| {
@@ -101,7 +101,7 @@ pub(crate) fn durations_text(rows: &[CodeDuration], all: &AllDurations) -> Strin
     code_durations(rows).shown().terminal() + &forecast + &sentence
 }
 
-/// What is to be made, what is there, and what is neither.
+/// Says how many runs are to be made, how many are there, and how many are neither.
 fn to_make(rows: &[CodeDuration], all: &AllDurations) -> String {
     let total: usize = rows.iter().map(|row| row.runs.tasks).sum();
     let there: usize = rows.iter().map(|row| row.runs.there).sum();
@@ -123,7 +123,7 @@ fn to_make(rows: &[CodeDuration], all: &AllDurations) -> String {
     }
 }
 
-/// A span of time for people.
+/// Formats a span of time for people.
 fn time_span(seconds: f64) -> String {
     match seconds {
         _ if seconds == 0.0 => "0 s".to_owned(),

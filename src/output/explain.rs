@@ -11,8 +11,8 @@ use crate::study::yield_force::{
 };
 use crate::study::{MAX_TOLERANCE, MIN_TOLERANCE};
 
-/// The steps that lead to the verdict of `row`, for a terminal. `twin` is the same force from runs with more digits,
-/// `coverage` says what the identity of an installed code covers.
+/// Formats the steps that lead to the verdict of `row`, for a terminal. `twin` is the same force from runs with more
+/// digits; `coverage` says what the identity of an installed code covers.
 pub(crate) fn explanation(
     row: &Judgement,
     twin: Option<&Result<TwinForce, String>>,
@@ -98,7 +98,7 @@ fn runs(row: &Judgement) -> String {
     )
 }
 
-/// How far the runs go towards what each law of mechanics allows.
+/// Reports the largest deviation of the runs from each law of mechanics, as a share of what is allowed.
 fn mechanics(runs: &[RunSummary]) -> String {
     if runs.is_empty() {
         return String::new();
@@ -141,7 +141,7 @@ fn extrapolation(row: &Judgement, slip: &Extrapolation) -> String {
     )
 }
 
-/// The peak at the paper's wall speed, less what that adds.
+/// Lists the peak at each wall speed, less what theory expects that speed to add.
 fn less_speed(row: &Judgement, found: &Extrapolation) -> String {
     let runs = row.study.cases.iter().zip(row.runs());
     let less = runs.map(|(case, run)| {

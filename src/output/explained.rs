@@ -1,4 +1,4 @@
-//! The explanation of one row for programs: the same steps as for people, as tables.
+//! The explanation of one row for programs: the same steps as for people, in tables.
 
 use super::number::significant;
 use super::table::{Columns, DataTable};
@@ -15,7 +15,7 @@ type Row<'a> = (
     Option<&'a str>,
 );
 
-/// Where the arms come from under which the reference of `row` was computed.
+/// Says where the arms come from under which the reference of `row` was computed.
 pub(super) fn origin_of_arms(row: &Judgement) -> &'static str {
     match row.arms_are_measured {
         _ if row.study.convention_uncertainty.is_some() => "measured, not declared",
@@ -24,7 +24,7 @@ pub(super) fn origin_of_arms(row: &Judgement) -> &'static str {
     }
 }
 
-/// The row itself, its error budget, its runs, and what else stands behind its verdict.
+/// Returns the tables of the row itself, its error budget, its runs, and what else supports its verdict.
 pub(crate) fn explained<'a>(
     row: &'a Judgement,
     twin: Option<&'a Result<TwinForce, String>>,
@@ -39,12 +39,12 @@ pub(crate) fn explained<'a>(
     ]
 }
 
-/// The last two of these tables, without rows.
+/// Returns the last two tables of `explained`, without rows.
 pub(crate) fn declared_explanations() -> [DataTable<'static>; 2] {
     [explained_runs(&[]), grounds([])]
 }
 
-/// The runs behind the rows.
+/// Returns the table of the runs behind the rows.
 pub(super) fn explained_runs(judgements: &[Judgement]) -> DataTable<'_> {
     let cases = judgements
         .iter()
@@ -108,7 +108,7 @@ pub(super) fn explained_runs(judgements: &[Judgement]) -> DataTable<'_> {
     columns.rows(cases)
 }
 
-/// Name and meaning of the column on what the runs leave of a law of mechanics.
+/// Returns name and meaning of the column with the deviation of a run from a law of mechanics.
 fn named(law: Law) -> (&'static str, &'static str) {
     match law {
         Law::ForceBalance => (

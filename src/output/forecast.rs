@@ -9,7 +9,7 @@ use crate::theory::quasistatic_limit;
 
 type Row<'a> = (&'a Forecast, &'a Forecasted);
 
-/// One row per estimate of the contact.
+/// Returns the table of forecasts, one row per estimate of the contact.
 pub(crate) fn forecasts(forecasts: &[Forecast]) -> DataTable<'_> {
     let rows = forecasts.iter().flat_map(|all| {
         let estimates = all.estimates.iter();
@@ -95,7 +95,7 @@ pub(crate) fn forecasts(forecasts: &[Forecast]) -> DataTable<'_> {
     .rows(rows)
 }
 
-/// The columns of the cylinders.
+/// Adds the columns of the experiment: frictions, stiffness ratio, and the cylinders.
 fn experiment<'a>(columns: Columns<'a, Row<'a>>) -> Columns<'a, Row<'a>> {
     let own = |(forecast, _): &Row| -> Experiment { forecast.experiment };
     columns
@@ -129,7 +129,7 @@ fn experiment<'a>(columns: Columns<'a, Row<'a>>) -> Columns<'a, Row<'a>> {
         .means("weight m g")
 }
 
-/// The estimates side by side, for people.
+/// Formats the estimates side by side, for people.
 pub(crate) fn forecast_text(forecast: &Forecast) -> String {
     let names: Vec<&str> = forecast
         .estimates
@@ -175,7 +175,7 @@ fn plus_minus(uncertainty: f64) -> String {
     }
 }
 
-/// The yield force by the chosen estimate, and the range over all estimates.
+/// States the yield force by the chosen estimate, and the range over all estimates.
 fn conclusion(forecast: &Forecast) -> String {
     let mut estimates = forecast.estimates.iter();
     let chosen = estimates.find(|estimate| estimate.contact == forecast.contact);
@@ -196,7 +196,7 @@ fn conclusion(forecast: &Forecast) -> String {
     format!("{said} by {}; {over}, {range}\n", forecast.contact)
 }
 
-/// Why there is no yield by the `chosen` estimate, what the stack carries instead, and at which frictions it yields.
+/// Says why the `chosen` estimate gives no yield, what the stack carries instead, and at which frictions it yields.
 fn no_yield_force(forecast: &Forecast, chosen: &Forecasted) -> String {
     let experiment = &forecast.experiment;
     let stack = Stack {
@@ -223,7 +223,7 @@ fn no_yield_force(forecast: &Forecast, chosen: &Forecasted) -> String {
     )
 }
 
-/// What the range of forces is over.
+/// Says over what the range of forces is taken.
 fn over(forecast: &Forecast) -> String {
     let uncertainty = forecast.experiment.mu_uncertainty;
     if uncertainty > 0.0 {

@@ -54,7 +54,7 @@ What a code is given for a task. Cylinder 1 is the top one, 2 the right one, 3 t
 
 ";
 
-/// The content of docs/formats.md: every machine-readable table and file, with the unit and the meaning of its columns.
+/// Returns the content of docs/formats.md: all machine-readable tables and files, with unit and meaning of each column.
 pub fn formats_page() -> String {
     let tables = json_tables().into_iter();
     let tables = tables.map(|table| format!("\n{}", table.described()));
@@ -68,7 +68,7 @@ pub fn formats_page() -> String {
         + &task().described()
 }
 
-/// Every table that is JSON too, without rows.
+/// Returns every table that is also written as JSON, without rows.
 pub(super) fn json_tables() -> Vec<DataTable<'static>> {
     let mut tables = vec![
         crosscheck(&[]),
@@ -112,7 +112,7 @@ pub(super) fn json_tables() -> Vec<DataTable<'static>> {
     tables
 }
 
-/// The files that codes deliver, without rows.
+/// Returns the tables that declare the files that codes deliver, without rows.
 pub(super) fn result_files() -> [DataTable<'static>; 4] {
     [
         file(
@@ -146,7 +146,7 @@ pub(super) fn result_files() -> [DataTable<'static>; 4] {
     ]
 }
 
-/// The parameters that the deck of a code is given.
+/// Returns the table that declares the parameters given to a deck.
 fn task() -> DataTable<'static> {
     let mut columns = Columns::<()>::new(
         "task",

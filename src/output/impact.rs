@@ -1,4 +1,4 @@
-//! Impacts by the codes beside their exact values.
+//! Impacts by the codes, compared with their exact values.
 
 use super::number::{digits, one_digit, relative, rounded};
 use super::table::{Columns, DataTable};
@@ -6,7 +6,7 @@ use super::text::{markdown_code, markdown_notes};
 use crate::study::impact::{DIVISIONS, ImpactFinding, ImpactJudgement, NEARLY_ELASTIC};
 use crate::study::{MAX_TOLERANCE, MIN_TOLERANCE};
 
-/// One row per number of an impact.
+/// Returns the table of impacts, one row per number of an impact.
 pub(crate) fn impacts(judgements: &[ImpactJudgement]) -> DataTable<'_> {
     fn measured<'a>(row: &&'a ImpactJudgement) -> Option<&'a ImpactFinding> {
         row.finding.as_ref()?.as_ref()
@@ -105,12 +105,12 @@ pub(crate) fn impacts(judgements: &[ImpactJudgement]) -> DataTable<'_> {
     .rows(judgements)
 }
 
-/// The rows for a terminal.
+/// Formats the rows for a terminal.
 pub(crate) fn impacts_text(judgements: &[ImpactJudgement]) -> String {
     impacts(judgements).shown().terminal()
 }
 
-/// A page with the rows, their meaning, and the notes on rows that do not agree.
+/// Formats a page with the rows, their meaning, and their notes.
 pub(crate) fn impacts_markdown(judgements: &[ImpactJudgement], command: &str) -> String {
     let (version, command) = (env!("CARGO_PKG_VERSION"), markdown_code(command));
     let divisions = DIVISIONS.map(|division| division.to_string()).join(", ");

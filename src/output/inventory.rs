@@ -5,7 +5,7 @@ use crate::code::{Code, Identity, TaskKind};
 use crate::model::{Arms, ContactArms};
 use crate::runs::SelectedCode;
 
-/// One row per code of `codes`.
+/// Returns the table of installed codes, one row per code of `codes`.
 pub(crate) fn inventory(codes: &[SelectedCode]) -> DataTable<'static> {
     let rows = codes.iter().map(|selected| {
         let found = selected.code.as_ref();
@@ -51,7 +51,8 @@ pub(crate) fn inventory(codes: &[SelectedCode]) -> DataTable<'static> {
     .rows(rows)
 }
 
-/// Arms for people, marked where they are only the default of a code that accepts any. Nothing is measured for a list.
+/// Formats declared arms for people, marked `(any)` where they are only the default of a code that accepts any.
+/// Nothing is measured for a list.
 fn arms(code: &Code, of: fn(&Arms) -> ContactArms) -> String {
     let Some(declared) = code.as_declared() else {
         return "not declared".to_owned();

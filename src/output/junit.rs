@@ -5,7 +5,7 @@ use crate::study::Verdict;
 use crate::study::yield_force::{JudgedSeries, Judgement};
 use quick_junit::{NonSuccessKind, Report, TestCase, TestCaseStatus, TestSuite};
 
-/// The rows of a crosscheck, a suite for each code.
+/// Formats the rows of a crosscheck, with one suite per code.
 pub(crate) fn of_rows(name: &str, judgements: &[Judgement]) -> String {
     let mut codes: Vec<&str> = Vec::new();
     for row in judgements {
@@ -20,7 +20,7 @@ pub(crate) fn of_rows(name: &str, judgements: &[Judgement]) -> String {
     document(name, suites)
 }
 
-/// Series that were judged without a plan: a suite of one test.
+/// Formats the verdict on series without a plan, as a suite of one test.
 pub(crate) fn of_series(name: &str, judged: &JudgedSeries) -> String {
     let stack = &judged.measurement.stack;
     let reason = judged.grounds.reason();
@@ -29,21 +29,21 @@ pub(crate) fn of_series(name: &str, judged: &JudgedSeries) -> String {
     document(name, [suite("series", [case])])
 }
 
-/// A document of `suites`.
+/// Formats a document of `suites`.
 pub(super) fn document(name: &str, suites: impl IntoIterator<Item = TestSuite>) -> String {
     let mut report = Report::new(name);
     report.add_test_suites(suites);
     report.to_string().expect("plain text has an XML form") + "\n"
 }
 
-/// A suite of `cases`.
+/// Collects `cases` in a suite.
 pub(super) fn suite(name: &str, cases: impl IntoIterator<Item = TestCase>) -> TestSuite {
     let mut suite = TestSuite::new(name);
     suite.add_test_cases(cases);
     suite
 }
 
-/// A row of a crosscheck.
+/// Converts a row of a crosscheck to a test case.
 pub(super) fn row(row: &Judgement) -> TestCase {
     let name = format!("{} at {}", row.code, place(row.mu(), row.stiffness()));
     let status = match row.passes() {
@@ -58,7 +58,7 @@ fn place(mu: f64, stiffness: f64) -> String {
     format!("mu = {}, stiffness = {stiffness}", friction(mu))
 }
 
-/// The result of a test with this verdict, and what there is to say about it.
+/// Converts a verdict to the status of a test; `text` is its message, unless the verdict is `Agrees`.
 pub(super) fn status(verdict: Verdict, text: &str) -> TestCaseStatus {
     let mut status = match verdict {
         Verdict::Agrees => return TestCaseStatus::success(),

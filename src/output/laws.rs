@@ -1,4 +1,4 @@
-//! What a contact law does to the yield force: the styles of all codes side by side, at one material.
+//! Effect of the contact law on the yield force: the styles of all codes side by side, for one material.
 
 use super::number::{digits, friction_in_tex, rounded, small};
 use super::table::{Columns, DataTable, Table};
@@ -10,17 +10,17 @@ use crate::study::yield_force::Judgement;
 /// Title of the page and of the section of the report.
 pub(crate) const LAWS_TITLE: &str = "What your contact law does to the yield force";
 
-/// What the conventions of a table of laws are.
+/// Explanation of the conventions in a table of laws.
 pub(crate) const LAWS_EXPLAINED: &str = "An arm $r_1$ is that of the torque, in $R = r + r_1 \\times$ overlap, with that of the surface velocity \
     where it is another one. Springs that remember a displacement have the force of the present stiffness; those that \
     remember a force grow by the present stiffness alone. A spring that is rescaled is reduced while the contact opens, and has \
     the limit of one that is not where every contact is loaded all the way, as here.";
 
-/// What the forces of a table of laws are.
+/// Explanation of the forces in a table of laws.
 pub(crate) const FORCES_EXPLAINED: &str = "Exact quasi-static limits $F = f/(mg)$ at the onset of slip / at the largest force, one number where \
     both are the same; none where the top wall reaches the bottom cylinders before the floor slips. The stiffness is $K r\\sqrt{r}/(mg)$.";
 
-/// Why the forces differ, and what that means.
+/// Returns the lead of the page: why the forces differ, and what that means.
 pub(crate) fn laws_lead(judgements: &[Judgement]) -> String {
     let ratio = judgements
         .first()
@@ -35,7 +35,8 @@ pub(crate) fn laws_lead(judgements: &[Judgement]) -> String {
     )
 }
 
-/// The material behind Mindlin's ratio of stiffnesses κ = (2 − ν)/(2 (1 − ν)), in words.
+/// Describes the material behind Mindlin's ratio of stiffnesses κ = (2 − ν)/(2 (1 − ν)) by ν, or by κ where ν would
+/// be outside 0 to 0.5.
 fn material(ratio: f64) -> String {
     let poisson = (2.0 * ratio - 2.0) / (2.0 * ratio - 1.0);
     match (0.0..=0.5).contains(&poisson) {
@@ -44,7 +45,7 @@ fn material(ratio: f64) -> String {
     }
 }
 
-/// One row of each code, in order.
+/// Returns the first row of each code, in order.
 fn styles(judgements: &[Judgement]) -> Vec<&Judgement> {
     let mut styles: Vec<&Judgement> = Vec::new();
     for row in judgements {
@@ -55,7 +56,7 @@ fn styles(judgements: &[Judgement]) -> Vec<&Judgement> {
     styles
 }
 
-/// What each style means by a contact.
+/// Returns the table of contact conventions, one row per style.
 pub(crate) fn law_conventions(judgements: &[Judgement]) -> DataTable<'_> {
     let convention = |row: &&Judgement| -> ContactConvention { row.study.convention };
     Columns::<&Judgement>::new(
@@ -86,7 +87,7 @@ pub(crate) fn law_conventions(judgements: &[Judgement]) -> DataTable<'_> {
     .rows(styles(judgements))
 }
 
-/// For people: slip onset and largest force of each style at each stiffness, a column for each friction.
+/// Returns a table for people: slip onset and largest force of each style and stiffness, with a column per friction.
 pub(crate) fn law_forces(judgements: &[Judgement]) -> Table {
     let sorted = |value: fn(&Judgement) -> f64| {
         let mut all: Vec<f64> = judgements.iter().map(value).collect();
@@ -117,7 +118,7 @@ pub(crate) fn law_forces(judgements: &[Judgement]) -> Table {
     table
 }
 
-/// The onset, and the peak where it is another force.
+/// Formats the onset and the peak, or the peak alone unless the onset is below it.
 fn exact_forces(row: &Judgement) -> String {
     let shown = digits::<5>;
     let limit = &row.study.limit;
@@ -128,7 +129,7 @@ fn exact_forces(row: &Judgement) -> String {
     }
 }
 
-/// For people: how well each style was measured to have its own limit.
+/// Returns a table for people that shows how well the runs of each style agree with its own limit.
 fn agreement(judgements: &[Judgement]) -> DataTable<'_> {
     let rows_of = move |own: &Judgement| {
         let code = own.code.clone();
@@ -151,7 +152,7 @@ fn agreement(judgements: &[Judgement]) -> DataTable<'_> {
         .rows(styles(judgements))
 }
 
-/// The page with the styles, their forces and how well they were measured; `figure` is the name of its picture.
+/// Formats the page on the styles, their forces and how well they were measured; `figure` is its picture's file name.
 pub(crate) fn laws_markdown(judgements: &[Judgement], figure: &str, command: &str) -> String {
     format!(
         "# {LAWS_TITLE}\n\n{}\n\n\

@@ -1,4 +1,4 @@
-//! Numbers as people read them.
+//! Formats of numbers for people.
 
 use crate::model::{CRITICAL_FRICTION, exact};
 use crate::paper::claims::scientific;
@@ -6,7 +6,7 @@ use crate::paper::claims::scientific;
 /// The name of the critical friction.
 pub(crate) const CRITICAL: &str = "mu_c";
 
-/// `value` with `digits` significant digits, in plain notation where that is short.
+/// Formats `value` with `digits` significant digits, in plain notation where that is short.
 pub(crate) fn significant(value: f64, digits: usize) -> String {
     if value == 0.0 || !value.is_finite() {
         return value.to_string();
@@ -20,12 +20,12 @@ pub(crate) fn significant(value: f64, digits: usize) -> String {
     }
 }
 
-/// `value` with `N` significant digits.
+/// Formats `value` with `N` significant digits.
 pub(crate) fn digits<const N: usize>(value: f64) -> String {
     significant(value, N)
 }
 
-/// `value` rounded to four significant digits, in the shorter notation.
+/// Rounds `value` to four significant digits, in the shorter notation.
 pub(crate) fn rounded(value: f64) -> String {
     let value: f64 = format!("{value:.3e}").parse().unwrap_or(value);
     let (plain, scientific) = (value.to_string(), format!("{value:e}"));
@@ -36,13 +36,13 @@ pub(crate) fn rounded(value: f64) -> String {
     }
 }
 
-/// `value` rounded to three significant digits, in plain notation without trailing zeros.
+/// Rounds `value` to three significant digits, in plain notation without trailing zeros.
 pub(crate) fn plain(value: f64) -> String {
     let value: f64 = format!("{value:.2e}").parse().unwrap_or(value);
     value.to_string()
 }
 
-/// A relative deviation: sign, two digits, exponent.
+/// Formats a relative deviation: sign, two digits, exponent.
 pub(crate) fn relative(value: f64) -> String {
     if value == 0.0 {
         return "0".to_owned();
@@ -50,7 +50,7 @@ pub(crate) fn relative(value: f64) -> String {
     format!("{value:+.1e}")
 }
 
-/// A friction coefficient; the critical one by its name.
+/// Formats a friction coefficient; the critical one by its name.
 pub(crate) fn friction(value: f64) -> String {
     if value == CRITICAL_FRICTION {
         CRITICAL.to_owned()
@@ -59,12 +59,12 @@ pub(crate) fn friction(value: f64) -> String {
     }
 }
 
-/// The same as TeX.
+/// Formats a friction coefficient as TeX; the critical one by its name.
 pub(crate) fn friction_in_tex(value: f64) -> String {
     friction(value).replace(CRITICAL, "\\mu_c")
 }
 
-/// A stiffness as TeX; a large power of ten by its exponent.
+/// Formats a stiffness as TeX; powers of ten from 10^5 on by their exponent.
 pub(crate) fn stiffness_in_tex(value: f64) -> String {
     match value >= 1e5 && exact(value).trim_end_matches('0') == "1" {
         true => scientific(value, 0),
@@ -72,12 +72,12 @@ pub(crate) fn stiffness_in_tex(value: f64) -> String {
     }
 }
 
-/// A deviation as TeX, with one digit and a power of ten.
+/// Formats a deviation as TeX, with one digit and a power of ten.
 pub(crate) fn power_of_ten(value: f64) -> String {
     format!("${}$", scientific(value, 0))
 }
 
-/// A small distance: two digits and an exponent.
+/// Formats a small distance: two digits and an exponent.
 pub(crate) fn small(value: f64) -> String {
     if value == 0.0 {
         return "0".to_owned();
@@ -85,22 +85,22 @@ pub(crate) fn small(value: f64) -> String {
     format!("{value:.1e}")
 }
 
-/// An uncertainty: one digit and an exponent.
+/// Formats an uncertainty: one digit and an exponent.
 pub(crate) fn one_digit(value: f64) -> String {
     format!("{value:.0e}")
 }
 
-/// A fraction in percent, with its sign.
+/// Formats a fraction in percent, with its sign.
 pub(crate) fn percent(value: f64) -> String {
     format!("{:+.2} %", 100.0 * value)
 }
 
-/// A cell for a text that may be empty.
+/// Returns `text`, or a dash if it is empty.
 pub(crate) fn or_dash(text: &str) -> String {
     if text.is_empty() { "-" } else { text }.to_owned()
 }
 
-/// A cell for a value that may be absent.
+/// Formats a value, or returns a dash if it is absent.
 pub(crate) fn optional<T>(value: Option<T>, format: impl FnOnce(T) -> String) -> String {
     value.map_or_else(|| "-".to_owned(), format)
 }

@@ -13,7 +13,7 @@ use schemars::generate::SchemaSettings;
 use serde::Serialize;
 use serde_json::Value;
 
-/// The keys of a convention, as measured.
+/// Returns the table of the keys of a convention, as measured.
 pub(crate) fn measured_convention(keys: &[MeasuredKey]) -> DataTable<'_> {
     Columns::<&MeasuredKey>::new(
         "convention",
@@ -39,7 +39,7 @@ pub(crate) fn measured_convention(keys: &[MeasuredKey]) -> DataTable<'_> {
     .rows(keys)
 }
 
-/// What the arms of a code change.
+/// Returns the table of what the arms of a code change in the yield force.
 pub(crate) fn arm_effects(effects: &[ArmEffects]) -> DataTable<'_> {
     Columns::<&ArmEffects>::new(
         "arm_effects",
@@ -71,7 +71,7 @@ pub(crate) fn arm_effects(effects: &[ArmEffects]) -> DataTable<'_> {
     .rows(effects)
 }
 
-/// The passport as JSON, made by `command`.
+/// Formats the passport as JSON; `command` is the command that made it.
 pub(crate) fn passport_json(passport: &Passport, command: &str) -> String {
     let provenance = &passport.findings.provenance;
     let convention = measured_convention(&passport.convention);
@@ -103,7 +103,7 @@ pub(crate) fn passport_json(passport: &Passport, command: &str) -> String {
     serde_json::to_string_pretty(&document).expect("plain values have a JSON form") + "\n"
 }
 
-/// JSON Schema of a passport.
+/// Returns the JSON Schema of a passport.
 pub(super) fn passport_schema() -> Value {
     let settings = SchemaSettings::draft2020_12().for_serialize();
     let generator = settings.into_generator();
@@ -163,7 +163,7 @@ struct Document<'a, T> {
     properties: T,
 }
 
-/// The passport as a page.
+/// Formats the passport as a page.
 pub(crate) fn passport_markdown(passport: &Passport, command: &str) -> String {
     let Passport { code, findings, .. } = passport;
     let provenance = &findings.provenance;
@@ -201,7 +201,7 @@ pub(crate) fn passport_markdown(passport: &Passport, command: &str) -> String {
     page + &parameters(passport)
 }
 
-/// The program in one paragraph.
+/// Describes the program in one paragraph.
 fn program(identity: &Identity) -> String {
     let hash = |hash: &Option<String>| {
         let hash = hash.as_deref().unwrap_or("none");
@@ -218,7 +218,7 @@ fn program(identity: &Identity) -> String {
     )
 }
 
-/// The verdict in words.
+/// States the verdict in words.
 fn sentence(passport: &Passport) -> String {
     let keys = passport.convention.iter();
     let unknown: Vec<_> = keys.filter(|own| own.measured.is_none()).collect();
@@ -266,7 +266,7 @@ fn twins(passport: &Passport) -> String {
     }
 }
 
-/// How many of the properties that are no convention are as asked for.
+/// States how many of the properties outside the convention are as asked for.
 fn parameters(passport: &Passport) -> String {
     let findings = passport.findings.findings.iter();
     let others: Vec<_> = findings.filter(|own| own.key.is_none()).collect();

@@ -1,9 +1,9 @@
-//! Planned runs.
+//! Table of planned runs.
 
 use super::table::{Columns, DataTable};
 use crate::code::{FailureKind, PlannedRun, PlannedTask};
 
-/// The runs of a plan, each with what is wrong with its result.
+/// Returns the table of the runs of a plan. `troubles` says for each run what is wrong with its result.
 pub(crate) fn planned_runs<'a>(
     runs: &'a [PlannedRun],
     troubles: &'a [Option<FailureKind>],

@@ -6,7 +6,7 @@ use crate::code::Code;
 use crate::study::Verdict;
 use crate::study::convention::Finding;
 
-/// One row per finding.
+/// Returns the table of the probe, one row per finding.
 pub(crate) fn probe(findings: &[Finding]) -> DataTable<'_> {
     Columns::<&Finding>::new(
         "probe",
@@ -28,7 +28,7 @@ pub(crate) fn probe(findings: &[Finding]) -> DataTable<'_> {
     .rows(findings)
 }
 
-/// For people: one line per property, one column per code.
+/// Returns a table for people, one row per property and one column per code.
 pub(crate) fn probe_by_code(findings: &[Finding]) -> Table {
     let mut codes: Vec<Code> = findings
         .iter()
@@ -55,7 +55,7 @@ pub(crate) fn probe_by_code(findings: &[Finding]) -> Table {
     columns.rows(properties).shown()
 }
 
-/// The measured value with its uncertainty in brackets, and the declared value where they disagree.
+/// Formats the measured value with its uncertainty in brackets, and the declared value unless they agree.
 fn cell(finding: &Finding) -> String {
     let (Some(measured), Some(uncertainty)) = (finding.measured, finding.uncertainty) else {
         return format!("unknown{}", of_declared(finding));
@@ -81,7 +81,7 @@ fn of_declared(finding: &Finding) -> String {
     declared.map_or_else(String::new, |declared| format!(", declared {declared}"))
 }
 
-/// `value` to six decimals, without trailing zeros.
+/// Formats `value` to six decimals, without trailing zeros.
 fn short(value: f64) -> String {
     let rounded = (value * 1e6).round() / 1e6 + 0.0;
     rounded.to_string()

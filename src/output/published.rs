@@ -1,4 +1,4 @@
-//! The authors' published numbers, reproduced, and those that do not fit together.
+//! Tables of the authors' published numbers: their reproduction, and numbers that contradict one another.
 
 use super::number::{digits, relative, rounded};
 use super::table::{Columns, DataTable};
@@ -13,13 +13,13 @@ const FOUND_IN: &str = "`tristack crosscheck --profile published` (published.csv
 /// The repository of the authors.
 pub(crate) const REPOSITORY: &str = "github.com/Ryudo-Suzuki/arXiv-2511.06807";
 
-/// How the runs are made.
+/// Explanation of how the native runs are made.
 pub(crate) const PROTOCOL: &str = "The native DEM does in them what the authors' program does: order of force and spring in a step, sliding \
     friction and cut of the spring, restitution 0.3, a given start, gravity at once, a wall that waits at 2 + √3, and for the yield \
     force the one before the first decrease. The start is one of the states on file, wall speed and time step are as a rule powers of ten, \
     one choice for a run of neighbouring rows (reference/published.toml); nothing is fitted.";
 
-/// The published yield forces.
+/// Returns the table of the published yield forces.
 pub(crate) fn published_forces(forces: &[RepeatedForce]) -> DataTable<'_> {
     let origin = |row: &&RepeatedForce| row.published.origin.clone();
     Columns::<&RepeatedForce>::new(
@@ -88,7 +88,7 @@ pub(crate) fn published_forces(forces: &[RepeatedForce]) -> DataTable<'_> {
     .rows(forces)
 }
 
-/// The published series of forces.
+/// Returns the table of the published series of forces.
 pub(crate) fn published_series(series: &[RepeatedSeries]) -> DataTable<'_> {
     let origin = |row: &&RepeatedSeries| row.published.origin.clone();
     Columns::<&RepeatedSeries>::new(
@@ -129,7 +129,7 @@ pub(crate) fn published_series(series: &[RepeatedSeries]) -> DataTable<'_> {
     .rows(series)
 }
 
-/// Runs from a given start.
+/// Returns the table of runs from a given start.
 pub(crate) fn given_runs(runs: &[GivenOutcome]) -> DataTable<'_> {
     Columns::<&GivenOutcome>::new(
         "given_runs",
@@ -158,7 +158,7 @@ pub(crate) fn given_runs(runs: &[GivenOutcome]) -> DataTable<'_> {
     .rows(runs)
 }
 
-/// The wall force of a run from a given start.
+/// Returns the table of the wall force over time, in a run from a given start.
 pub(crate) fn given_series(run: &[(f64, f64)]) -> DataTable<'_> {
     Columns::<&(f64, f64)>::new(
         "given_series",
@@ -174,7 +174,7 @@ pub(crate) fn given_series(run: &[(f64, f64)]) -> DataTable<'_> {
     .rows(run)
 }
 
-/// Numbers of one thing that differ.
+/// Returns the table of different numbers for the same thing.
 pub(crate) fn contradictions(found: &[Contradiction]) -> DataTable<'_> {
     Columns::<&Contradiction>::new(
         "contradictions",
@@ -209,7 +209,7 @@ pub(crate) fn contradictions(found: &[Contradiction]) -> DataTable<'_> {
     .rows(found)
 }
 
-/// The files that were read.
+/// Returns the table of the files that were read.
 pub(crate) fn published_files(files: &[DataFile]) -> DataTable<'_> {
     Columns::<&DataFile>::new(
         "published_files",
@@ -233,12 +233,12 @@ pub(crate) fn published_files(files: &[DataFile]) -> DataTable<'_> {
 /// Digits of a digest in tables for people.
 const SHOWN_DIGITS: usize = 16;
 
-/// A path for people, with a place at which a line may end.
+/// Formats a path for people: `/data/` becomes `: `, after which a line may end.
 fn in_words(path: &str) -> String {
     path.replace("/data/", ": ")
 }
 
-/// All tables of what was published.
+/// Returns all tables of the published numbers.
 pub(crate) fn published_tables(published: &Published) -> [DataTable<'_>; 4] {
     [
         published_forces(&published.forces),
@@ -248,12 +248,12 @@ pub(crate) fn published_tables(published: &Published) -> [DataTable<'_>; 4] {
     ]
 }
 
-/// How much is reproduced, in a sentence.
+/// States in a sentence how much is reproduced.
 pub(crate) fn published_summary(published: &Published) -> String {
     summary_with(published, |largest| format!("{largest:.1e} of F + 3"))
 }
 
-/// The same with mathematics in TeX.
+/// States how much is reproduced, with mathematics in TeX.
 pub(crate) fn published_summary_in_tex(published: &Published) -> String {
     summary_with(published, |largest| {
         format!("${}$ of $F + 3$", scientific(largest, 1))
@@ -295,7 +295,7 @@ fn summary_with(published: &Published, in_words: impl Fn(f64) -> String) -> Stri
     text
 }
 
-/// The tables for a terminal.
+/// Formats the tables for a terminal, without that of the files.
 pub(crate) fn published_text(published: &Published) -> String {
     let [forces, series, contradictions, _] =
         published_tables(published).map(|table| table.shown().terminal());
@@ -309,7 +309,7 @@ pub(crate) fn published_text(published: &Published) -> String {
 /// The beginning of the page.
 pub(crate) const PUBLISHED_TITLE: &str = "# The published numbers, reproduced\n\nMade by tristack";
 
-/// A page with all tables.
+/// Formats a page with all tables.
 pub(crate) fn published_markdown(published: &Published, command: &str) -> String {
     let [forces, series, contradictions, files] =
         published_tables(published).map(|table| table.shown().markdown());

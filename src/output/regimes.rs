@@ -9,7 +9,7 @@ use crate::study::regimes::{Confirmation, Examination, Survey, THREE_DIGITS};
 use crate::study::yield_force::Evidence;
 use crate::theory::{Across, Axis, FailureMode, LoadingOutcome, LoadingPhase, Regime, RegimeMap};
 
-/// The maps as grids of `columns` values on the axis by `rows` floor frictions.
+/// Returns the table of the maps as grids of `columns` values on the axis by `rows` floor frictions.
 pub(crate) fn regimes(maps: &[RegimeMap], columns: usize, rows: usize) -> DataTable<'_> {
     Columns::<(Axis, Stack, LoadingOutcome)>::new(
         "regimes",
@@ -55,7 +55,7 @@ fn grid(map: &RegimeMap, columns: usize, rows: usize) -> Vec<(Axis, Stack, Loadi
     grid
 }
 
-/// The boundary points.
+/// Returns the table of boundary points.
 pub(crate) fn boundaries(confirmations: &[Confirmation]) -> DataTable<'_> {
     let claimed = |own: &Confirmation, side: usize| own.point.sides[side].regime().to_string();
     let observed = |own: &Confirmation, side: usize| {
@@ -94,7 +94,7 @@ pub(crate) fn boundaries(confirmations: &[Confirmation]) -> DataTable<'_> {
     .rows(confirmations)
 }
 
-/// The largest forces.
+/// Returns the table of largest forces.
 pub(crate) fn largest_forces(examinations: &[Examination]) -> DataTable<'_> {
     let or_why = |own: &Examination, force: Option<f64>| {
         let without = || match own.claimed.failure_mode {
@@ -143,7 +143,7 @@ pub(crate) fn largest_forces(examinations: &[Examination]) -> DataTable<'_> {
     .rows(examinations)
 }
 
-/// Boundaries and largest forces for a terminal.
+/// Formats boundaries and largest forces for a terminal.
 pub(crate) fn survey_text(survey: &Survey) -> String {
     let [friction, lines, forces] = tables(survey).map(|table| table.terminal());
     format!(
@@ -154,10 +154,10 @@ pub(crate) fn survey_text(survey: &Survey) -> String {
     )
 }
 
-/// The beginning of the page.
+/// The beginning of the page, by which the program recognises a page of its own.
 pub(crate) const REGIMES_TITLE: &str = "# Which event comes first\n\nMade by tristack";
 
-/// A page with boundaries, largest forces, the effect of each event, and the figure.
+/// Formats a page with boundaries, largest forces, the effect of each event, and the figure.
 pub(crate) fn regimes_markdown(survey: &Survey, command: &str) -> String {
     let command = markdown_code(command);
     let [friction, lines, forces] = tables(survey).map(|table| table.markdown());
@@ -212,16 +212,16 @@ fn tables(survey: &Survey) -> [Table; 3] {
     ]
 }
 
-/// Successive boundary points that share a line of a table.
+/// Adjacent boundary points that share a row of a table.
 type Group<'a> = &'a [&'a Confirmation];
 
-/// The points whose boundary is crossed in this way.
+/// Returns the points whose boundary is crossed in the way that is `wanted`.
 fn crossed(survey: &Survey, wanted: impl Fn(Across) -> bool) -> Vec<&Confirmation> {
     let all = survey.confirmations.iter();
     all.filter(|own| wanted(own.point.across)).collect()
 }
 
-/// Name and value of what varies besides the floor friction.
+/// Returns name and value of the parameter that varies besides the floor friction.
 fn place(own: &Confirmation) -> (&'static str, f64) {
     let map = own.point.map;
     (map.as_str(), map.get(&own.point.stack))
@@ -282,7 +282,7 @@ fn line_table(survey: &Survey) -> Table {
         .shown()
 }
 
-/// The number of neighbours for which the DEM agrees with theory.
+/// Counts the neighbours for which the DEM agrees with theory.
 fn tally(group: &Group) -> String {
     let sides = group.iter().flat_map(|member| &member.sides);
     let agree = sides.filter(|side| side.verdict == Verdict::Agrees).count();

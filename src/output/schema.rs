@@ -1,5 +1,5 @@
-//! JSON Schema (2020-12) of the documents that tristack reads and writes, made from their declarations. The unit of a
-//! number stands under `x-unit`.
+//! JSON Schema (2020-12) of the documents that tristack reads and writes, generated from their declarations. The
+//! keyword `x-unit` holds the unit of a number.
 
 use super::case_file::case_schema;
 use super::formats::{json_tables, result_files};
@@ -33,7 +33,7 @@ pub enum Document {
 }
 
 impl Document {
-    /// Its JSON Schema.
+    /// Returns the JSON Schema of the document.
     pub fn json_schema(self) -> Value {
         let mut schema = match self {
             Self::Task => task(),
@@ -66,14 +66,14 @@ impl Document {
     }
 }
 
-/// The schemas of all documents in one, each under its name.
+/// Returns one schema that defines those of all documents, each under its name.
 pub fn all_json_schemas() -> Value {
     let documents = Document::value_variants().iter();
     let named = documents.map(|one| (one.name().to_owned(), one.json_schema()));
     json!({ "$schema": DIALECT, "$defs": named.collect::<Map<_, _>>() })
 }
 
-/// One of `parts`, each by its name.
+/// Returns a schema that accepts any one of `parts`, each defined under its name.
 fn one_of(description: &str, parts: impl IntoIterator<Item = (&'static str, Value)>) -> Value {
     let parts: Map<_, _> = parts
         .into_iter()
@@ -101,10 +101,10 @@ fn manifest() -> Value {
         .into_generator()
         .into_root_schema_for::<Definition>();
     let mut schema = schema.to_value();
-    // What a manifest leaves out of its convention has no default: it is measured.
+    // Keys of the convention that a manifest leaves out have no default: they are measured.
     let convention = without(&schema["properties"]["convention"], "default");
     schema["properties"]["convention"] = convention;
-    // Keys that override others need no further ones.
+    // A variant overrides single keys, so that it requires none.
     let mut variant = without(&schema, "required");
     if let Some(keys) = variant["properties"].as_object_mut() {
         for own in ["schema", "name", "variants"] {
@@ -115,7 +115,7 @@ fn manifest() -> Value {
         entries.retain(|key, _| !["$schema", "title", "description"].contains(&key.as_str()));
     }
     schema["properties"]["variants"]["additionalProperties"] = variant;
-    // So does a manifest that takes the rest from another one.
+    // A manifest that extends another one takes its other keys from there, so that they are not required.
     let mut extending = without(&schema, "required");
     extending["required"] = json!(["schema", "name", "extends"]);
     if let Some(keys) = schema["properties"].as_object_mut() {
@@ -124,7 +124,7 @@ fn manifest() -> Value {
     json!({ "title": "Manifest", "anyOf": [schema, extending] })
 }
 
-/// `schema` without a keyword at any depth.
+/// Returns `schema` without `keyword` at any depth.
 fn without(schema: &Value, keyword: &str) -> Value {
     match schema {
         Value::Object(entries) => {

@@ -1,10 +1,10 @@
-//! Series of one stack that nobody has planned, judged.
+//! The verdict on series of one stack that were made without a plan.
 
 use super::number::{digits, one_digit, optional, relative, significant, small};
 use super::table::{Columns, DataTable};
 use crate::study::yield_force::{Budget, BudgetPart, FoundSeries, JudgedSeries, Method, RunRoles};
 
-/// The verdict on the series, in one row, and what stands behind it.
+/// Returns the tables of the verdict on the series (one row), of the runs behind it, and of its uncertainty.
 pub(crate) fn judged_series(judged: Option<&JudgedSeries>) -> [DataTable<'_>; 3] {
     [verdict(judged), runs(judged), budget(judged)]
 }
@@ -95,7 +95,7 @@ fn runs(judged: Option<&JudgedSeries>) -> DataTable<'_> {
 fn budget(judged: Option<&JudgedSeries>) -> DataTable<'_> {
     let parts = judged.and_then(JudgedSeries::budget).into_iter();
     let parts = parts.flat_map(|budget| Budget::PARTS.map(|part| (part, (part.value)(budget))));
-    // Nobody's series take shortcuts, and arms of the command line are not measured.
+    // Series without a plan take no shortcuts, and arms given on the command line are not measured.
     let concerns = |(part, value): &(BudgetPart, Option<f64>)| {
         part.name != "shortcuts" && (value.is_some() || !part.known_by.is_empty())
     };
@@ -139,7 +139,7 @@ fn budget(judged: Option<&JudgedSeries>) -> DataTable<'_> {
     .rows(parts)
 }
 
-/// The tables for a terminal, and the distance in a sentence.
+/// Formats the tables for a terminal, and states the distance from the exact limit in a sentence.
 pub(crate) fn judged_series_text(judged: &JudgedSeries) -> String {
     let limit = &judged.measurement.limit;
     let tables = judged_series(Some(judged));

@@ -3,7 +3,7 @@
 use crate::series::Series;
 use serde_json::{Value, json};
 
-/// What stands beside the file `name` with this `series`: every column with its unit and meaning.
+/// Returns the metadata of the file `name` that holds `series`: every column with its unit and meaning.
 pub(crate) fn series_columns(name: &str, series: &Series) -> String {
     let columns = series.present().map(|column| {
         let kind = if column.name == "step" {

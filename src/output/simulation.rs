@@ -10,13 +10,13 @@ use crate::theory::{Limit, quasistatic_limit};
 /// A run, its yield force by both estimators, and the exact limit of both.
 type Row<'a> = (&'a Run, YieldEstimates, Option<Limit>);
 
-/// A wall that moves less than so many times as far as to the exact yield may stop before it; planned ones move 1.05 times
-/// as far.
+/// Wall travel, in units of the travel to the exact yield, below which a run may stop before it yields. Planned walls
+/// move 1.05 times as far as to the exact yield.
 const LEAST_TRAVEL: f64 = 1.04;
-/// A wall that moves so many times as far goes beyond the yield, whatever its speed adds.
+/// Wall travel, in the same units, that goes beyond the yield, whatever the speed of the wall adds.
 const TRAVEL_BEYOND: f64 = 1.1;
 
-/// One row per run.
+/// Returns the table of runs, one row per run.
 pub(crate) fn simulations(runs: &[Run]) -> DataTable<'_> {
     let rows = runs.iter().map(|run| {
         let estimates = YieldEstimates::read(&run.series, &run.case);
@@ -52,7 +52,7 @@ pub(crate) fn simulations(runs: &[Run]) -> DataTable<'_> {
         .rows(rows)
 }
 
-/// The limit after a gravity ramp.
+/// Returns the exact limit after a gravity ramp.
 fn exact_limit(case: &Case) -> Limit {
     quasistatic_limit(&case.stack, &case.convention)
 }
@@ -62,7 +62,8 @@ fn error((run, found, limit): &Row) -> Option<f64> {
     Some((onset - reference) / run.case.stack.floor_load(reference))
 }
 
-/// Why a run shows no yield, and what to change; `None` for one that does.
+/// Says why a run shows no yield, and what to change. Returns `None` if the run shows one, or if theory gives no wall
+/// travel to the yield.
 pub(crate) fn unfinished(run: &Run) -> Option<String> {
     let found = YieldEstimates::read(&run.series, &run.case);
     let what = match (found.slip, found.peak) {
@@ -88,7 +89,7 @@ pub(crate) fn unfinished(run: &Run) -> Option<String> {
     })
 }
 
-/// The code, the stack and the arms.
+/// Starts the table with the columns of code, stack and arms.
 fn subject<'a>() -> Columns<'a, Row<'a>> {
     let table = "A row is one compression run and what was read off it. The case file beside it (case.json) holds \
                  what is left out here.";
@@ -102,7 +103,7 @@ fn subject<'a>() -> Columns<'a, Row<'a>> {
         .convention(|(run, ..)| run.case.convention)
 }
 
-/// The contact convention beyond the arms.
+/// Adds the columns of the contact convention beyond the arms.
 fn convention<'a>(columns: Columns<'a, Row<'a>>) -> Columns<'a, Row<'a>> {
     let own = |(run, ..): &Row| -> ContactConvention { run.case.convention };
     columns
@@ -121,7 +122,7 @@ fn convention<'a>(columns: Columns<'a, Row<'a>>) -> Columns<'a, Row<'a>> {
         .law(move |row| own(row).law)
 }
 
-/// Preparation, compression and sampling.
+/// Adds the columns of preparation, compression and sampling.
 fn protocol<'a>(columns: Columns<'a, Row<'a>>) -> Columns<'a, Row<'a>> {
     let time = "√(m/k_n)";
     let own = |(run, ..): &Row| -> Protocol { run.case.protocol };

@@ -4,18 +4,18 @@ use crate::code::PlannedRun;
 use crate::model::shell_quoted;
 use std::time::Duration;
 
-/// A task of a Slurm array takes at least so many seconds by forecast: starting one takes as long.
+/// Minimum duration of a task of a Slurm array, in seconds, by forecast: starting a task takes as long.
 const SECONDS_OF_A_TASK: f64 = 60.0;
-/// Most tasks of an array, unless Slurm is configured otherwise (`MaxArraySize` is 1001).
+/// Maximum number of tasks in an array, unless Slurm is configured otherwise (its default `MaxArraySize` is 1001).
 const MOST_TASKS: usize = 1000;
 
-/// One line a run, each in a shell of its own.
+/// Returns one line per run, each run in a subshell of its own.
 pub(crate) fn start_list(runs: &[&PlannedRun]) -> String {
     let lines = runs.iter().map(|run| format!("({})\n", start(run)));
     lines.collect()
 }
 
-/// The same for `parallel < parallel.txt`, which gives each line to a shell, the longest run first.
+/// Returns the list for `parallel < parallel.txt`, longest run first; `parallel` gives each line a shell of its own.
 pub(crate) fn parallel_list(runs: &[&PlannedRun]) -> String {
     let mut runs = runs.to_vec();
     runs.sort_by(|one, other| other.seconds.total_cmp(&one.seconds));
@@ -23,7 +23,7 @@ pub(crate) fn parallel_list(runs: &[&PlannedRun]) -> String {
     lines.collect()
 }
 
-/// Changes to the directory of the run, and starts it.
+/// Returns the shell command that changes to the directory of the run and starts it.
 fn start(run: &PlannedRun) -> String {
     let directory = shell_quoted(&run.directory);
     let variables = run.environment.iter();
@@ -37,8 +37,8 @@ fn start(run: &PlannedRun) -> String {
     format!("cd {directory} && {command} > stdout.txt 2> stderr.txt")
 }
 
-/// A Slurm array script with all runs in it, so that an array that waits does not see a later plan. A run is given up
-/// after the time by `limit`.
+/// Returns a Slurm array script. It contains all runs, so that a waiting array does not see a later plan. A run is
+/// given up after the time that `limit` returns for it.
 pub(crate) fn slurm_array(
     name: &str,
     runs: &[&PlannedRun],
@@ -73,13 +73,14 @@ pub(crate) fn slurm_array(
     )
 }
 
-/// The directory of the plan that a run is in, which is there: Slurm makes none for its output.
+/// Returns the top directory of a run, in the directory of the plan. It exists already; Slurm creates no directory
+/// for its output.
 fn top_directory(run: &PlannedRun) -> &str {
     let (top, _) = run.directory.split_once('/').unwrap_or((".", ""));
     top
 }
 
-/// The runs as tasks of an array, in their order.
+/// Groups the runs into the tasks of an array, in their order.
 fn array_tasks<'a>(runs: &[&'a PlannedRun]) -> Vec<Vec<&'a PlannedRun>> {
     let all: f64 = runs.iter().map(|run| run.seconds).sum();
     let enough = SECONDS_OF_A_TASK.max(all / MOST_TASKS as f64);

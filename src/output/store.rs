@@ -1,4 +1,4 @@
-//! The contents of a store.
+//! Tables of the contents of a store.
 
 use super::number::{friction, optional, plain, small};
 use super::table::{Columns, DataTable};
@@ -8,10 +8,10 @@ use jiff::{Timestamp, Unit};
 use std::collections::BTreeMap;
 use std::time::SystemTime;
 
-/// Digits of an address that people are shown: two entries of a store never share as many.
+/// Number of digits of an address that people are shown: no two entries of a store share as many.
 const SHOWN_DIGITS: usize = 12;
 
-/// Entries of one kind, code and version together.
+/// The entries that share kind, code and version.
 struct Group<'a> {
     kind: &'static str,
     code: Option<&'a str>,
@@ -48,11 +48,11 @@ fn version(content: &Content) -> Option<&str> {
     content.origin.as_ref().ok()?.version.as_deref()
 }
 
-/// Explanation of the kinds.
+/// Meaning of the column `kind`.
 const KIND: &str = "`run`, `probe` (micro-tests), `observation` (of an event run), `impact`, `checkpoint` (of an unfinished native \
                     run), `failed-run` (the files that it left) or `quarantine` (a damaged result)";
 
-/// What a store holds, summed up by kind, code and version.
+/// Returns the table of what a store holds, summed up by kind, code and version.
 pub(crate) fn stored(contents: &[Content]) -> DataTable<'_> {
     Columns::<Group>::new(
         "store",
@@ -85,7 +85,7 @@ pub(crate) fn stored(contents: &[Content]) -> DataTable<'_> {
     .rows(groups(contents))
 }
 
-/// The entries of a store.
+/// Returns the table of the entries of a store.
 pub(crate) fn stored_entries(contents: &[Content]) -> DataTable<'_> {
     Columns::<&Content>::new(
         "store-entries",
@@ -133,7 +133,7 @@ pub(crate) fn stored_entries(contents: &[Content]) -> DataTable<'_> {
     .rows(contents)
 }
 
-/// The files of an entry.
+/// Returns the table of the files of an entry.
 pub(crate) fn stored_files(files: &[StoredFile]) -> DataTable<'_> {
     Columns::<&StoredFile>::new(
         "store-files",
@@ -149,8 +149,8 @@ pub(crate) fn stored_files(files: &[StoredFile]) -> DataTable<'_> {
     .rows(files)
 }
 
-/// All that is known of an entry, a line each, then its files. `is_outdated` says whether the same task would have
-/// another address today, if that is known.
+/// Formats all that is known of an entry, one fact per line, then its files. `is_outdated` says whether the same task
+/// would have another address today, if that is known.
 pub(crate) fn entry_text(content: &Content, is_outdated: Option<bool>) -> String {
     let entry = &content.entry;
     let mut lines = vec![
@@ -192,7 +192,7 @@ pub(crate) fn entry_text(content: &Content, is_outdated: Option<bool>) -> String
     lines + &stored_files(&entry.files).shown().terminal()
 }
 
-/// The beginning of an address; the whole directory of a failed run.
+/// Returns the beginning of an address, or the whole directory of a failed run.
 fn short_address(entry: &StoredEntry) -> String {
     match entry.name.contains('/') {
         true => entry.name.clone(),
@@ -200,18 +200,18 @@ fn short_address(entry: &StoredEntry) -> String {
     }
 }
 
-/// A moment to the second, UTC.
+/// Formats a moment to the second, UTC.
 fn time(moment: SystemTime) -> String {
     let moment = Timestamp::try_from(moment).unwrap_or_default();
     moment.round(Unit::Second).unwrap_or(moment).to_string()
 }
 
-/// A moment to the minute, UTC, for people.
+/// Formats a moment to the minute, UTC, for people.
 fn day(moment: SystemTime) -> String {
     time(moment).replace('T', " ").chars().take(16).collect()
 }
 
-/// A number of bytes for people, in the units of disks.
+/// Formats a number of bytes for people, in decimal units (kB, MB, GB).
 pub(crate) fn size(bytes: f64) -> String {
     let units = [(1e9, "GB"), (1e6, "MB"), (1e3, "kB")];
     let unit = units.iter().find(|(unit, _)| bytes >= *unit);

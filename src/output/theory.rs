@@ -5,7 +5,7 @@ use super::table::{Columns, DataTable, Table};
 use crate::model::{PAPER_BODIES, exact};
 use crate::theory::Predictions;
 
-/// One row per stack.
+/// Returns the table of theories, one row per stack.
 pub(crate) fn theory(predictions: &[Predictions]) -> DataTable<'_> {
     Columns::<&Predictions>::new(
         "theory",
@@ -98,7 +98,7 @@ pub(crate) fn theory(predictions: &[Predictions]) -> DataTable<'_> {
     .rows(predictions)
 }
 
-/// For people: a table per stack, with a line per theory.
+/// Formats one table per stack for people, one line per theory.
 pub(crate) fn theories_by_stack(predictions: &[Predictions]) -> String {
     let tables = predictions.iter().map(|case| {
         let bodies = match case.stack.bodies {
@@ -150,7 +150,7 @@ fn one_case(case: &Predictions) -> Table {
         ),
         ("quasi-static limit", exact.yield_force, exact_remark),
     ];
-    // The paper's theories know no other springs; the rigid one knows none.
+    // The naive, perturbation and elastic theories assume linear springs; the rigid one has no springs.
     let is_linear = case.convention.law.is_linear();
     for (.., remark) in lines[1..4].iter_mut().filter(|_| !is_linear) {
         if remark.is_empty() {

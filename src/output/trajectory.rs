@@ -23,7 +23,7 @@ fn rows_of(judgement: &TrajectoryJudgement) -> Vec<Row<'_>> {
     }
 }
 
-/// One row per distance.
+/// Returns the table of trajectories, one row per distance.
 pub(crate) fn trajectories(judgements: &[TrajectoryJudgement]) -> DataTable<'_> {
     fn compared<'a>((_, row): &Row<'a>) -> Option<&'a Comparison> {
         row.map(|(comparison, _)| comparison)
@@ -88,13 +88,13 @@ pub(crate) fn trajectories(judgements: &[TrajectoryJudgement]) -> DataTable<'_> 
     .rows(judgements.iter().flat_map(rows_of))
 }
 
-/// The codes and the comparisons for a terminal.
+/// Formats the codes and the comparisons for a terminal.
 pub(crate) fn trajectories_text(judgements: &[TrajectoryJudgement]) -> String {
     let rows = comparisons(judgements);
     codes(judgements).shown().terminal() + &rows.shown().terminal() + &rows.units()
 }
 
-/// A page with the comparisons, their meaning, the reasons for their orders, and their limits.
+/// Formats a page with the comparisons, their meaning, the reasons for their orders, and their limits.
 pub(crate) fn trajectories_markdown(judgements: &[TrajectoryJudgement], command: &str) -> String {
     let version = env!("CARGO_PKG_VERSION");
     let command = markdown_code(command);
@@ -142,7 +142,7 @@ fn meaning(judgements: &[TrajectoryJudgement]) -> String {
     )
 }
 
-/// Every stiffness ratio that occurs, in the order of the codes: each law has its usual one.
+/// Lists every stiffness ratio that occurs, in the order of the codes; each law has its usual one.
 fn kappas(judgements: &[TrajectoryJudgement], stack: &Stack) -> String {
     let mut kappas = vec![stack.stiffness_ratio];
     for judgement in judgements {
@@ -174,7 +174,7 @@ const NO_PROOF: &str = "\n## What this does not prove\n\n\
     would show. That a code follows its twin for another stack, another wall speed or other contact laws. \
     What happens after the landing of cylinder 1.\n";
 
-/// Every documented order that occurs, with its reason, once.
+/// Lists every documented order that occurs, once, with its reason.
 fn reasons(judgements: &[TrajectoryJudgement]) -> String {
     let mut text = "\n## Why the distances fall as they do\n\n".to_owned();
     let mut seen = Vec::new();
@@ -246,7 +246,7 @@ fn codes(judgements: &[TrajectoryJudgement]) -> DataTable<'_> {
         .rows(judgements)
 }
 
-/// The number of comparisons that agree, or the verdict of a code without comparisons.
+/// Returns the number of comparisons that agree, or the verdict of a code without comparisons.
 fn tally(judgement: &TrajectoryJudgement) -> String {
     if judgement.comparisons().is_empty() {
         return judgement.verdict().to_string();
@@ -256,7 +256,7 @@ fn tally(judgement: &TrajectoryJudgement) -> String {
     format!("{} of {} agree", agreeing.count(), all.len())
 }
 
-/// For people: one row per comparison, with its distances side by side.
+/// Returns a table for people, one row per comparison with its distances side by side.
 fn comparisons(judgements: &[TrajectoryJudgement]) -> DataTable<'_> {
     type Row<'a> = (&'a TrajectoryJudgement, &'a Comparison);
     let largest = |own: &Comparison, index: usize| {

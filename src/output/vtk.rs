@@ -3,9 +3,9 @@
 use crate::model::{PAPER_BODIES, Stack};
 use crate::series::{ContactPoint, Frame, Frames, Partner};
 
-/// Most rows written, apart from the last one and the one of the largest force.
+/// Maximum number of rows written, apart from the last one and that of the largest force.
 const MOST_ROWS: usize = 500;
-/// The file that lists the others.
+/// Name of the file that lists the others.
 pub(crate) const VTK_COLLECTION: &str = "stack.pvd";
 const UNITS: &str = "Lengths in r, forces in m g, times in sqrt(m/k_n).";
 /// Kinds of files, apart from the collection.
@@ -21,11 +21,11 @@ pub struct VtkFile {
     pub content: String,
 }
 
-/// The files of a series of `stack`: `stack.pvd`, which lists the others with their times, and for every row
+/// Returns the files of a series of `stack`: `stack.pvd`, which lists the others with their times, and for every row
 /// `cylinders_NNNN.vtp` (centres with angle, radius, and velocity where it is known) or `spheres_NNNN.vtp` (with the
-/// rotation as a vector), and `contacts_NNNN.vtp` (contact points with the force on the body; on a partner that is a
-/// body its opposite acts). Lengths in r, forces in m g, times in √(m/k_n), velocities in r √(k_n/m). Of long series
-/// every n-th row is kept, and always the last one and that of the largest force.
+/// rotation as a vector), and `contacts_NNNN.vtp` (contact points with the force on the body; the opposite force acts
+/// on its partner, if that is a body). Lengths are in r, forces in m g, times in √(m/k_n), velocities in r √(k_n/m).
+/// Long series are thinned to every n-th row, but always keep the last one and that of the largest force.
 pub fn vtk_series(frames: &Frames, stack: &Stack) -> Vec<VtkFile> {
     let kept = kept_rows(frames);
     let mut files = Vec::with_capacity(2 * kept.len() + 1);
@@ -90,7 +90,7 @@ fn kept_rows(frames: &Frames) -> Vec<usize> {
         .collect()
 }
 
-/// The name of the column with the numbers of bodies.
+/// Returns the name of the column that numbers the bodies.
 fn number_of(stack: &Stack) -> &'static str {
     match stack.bodies {
         PAPER_BODIES => "cylinder",
@@ -122,7 +122,7 @@ fn bodies(frame: &Frame, stack: &Stack) -> String {
 fn contacts(frame: &Frame, stack: &Stack) -> String {
     let epsilon = stack.epsilon();
     let all = || frame.contacts.iter();
-    // Floor 0, top wall −1: bodies count from 1.
+    // Bodies count from 1; the floor is 0, the top wall −1.
     let partner = |contact: &ContactPoint| match contact.partner {
         Partner::Body(index) => index as i64 + 1,
         Partner::Floor => 0,
@@ -152,7 +152,7 @@ fn integers(name: &str, values: impl IntoIterator<Item = i64>) -> String {
 }
 
 fn vectors(name: &str, values: impl IntoIterator<Item = [f64; 3]>) -> String {
-    // The sum has no negative zero, which products of the plane's z = 0 may be.
+    // Adding zero removes the negative zeros that products with the plane's z = 0 may give.
     let components = values
         .into_iter()
         .map(|[x, y, z]| format!("{x} {y} {}", z + 0.0));
@@ -166,7 +166,7 @@ fn array(kind: &str, name: &str, components: usize, values: &str) -> String {
     )
 }
 
-/// Points, each a vertex, with their data and numbers for the whole frame.
+/// Formats points, each a vertex, with their data, and numbers for the whole frame.
 fn document(of_the_frame: &[(&str, f64)], points: Vec<[f64; 3]>, arrays: &[String]) -> String {
     let count = points.len();
     let fields = of_the_frame.iter().map(|(name, value)| {

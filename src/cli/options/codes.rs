@@ -17,7 +17,7 @@ pub(in crate::cli) struct CodeOptions {
 }
 
 impl CodeOptions {
-    /// The codes that are named, each of which must have a law of this power.
+    /// Returns the named codes, each of which must have a law of this power.
     pub fn of_power(&self, power: Power) -> Result<Vec<Code>, InvalidValue> {
         let mut named = self.named.iter();
         let Some(other) = named.find(|code| !code.has_power(power)) else {
@@ -39,7 +39,7 @@ impl CodeOptions {
     }
 }
 
-/// The codes named, each of which must be installed; every code with the paper's law if none is named.
+/// Returns the named codes, each of which must be installed, or every code with the paper's law if none is named.
 pub(in crate::cli) fn selected_codes(named: &[Code]) -> Result<Vec<SelectedCode>, CliError> {
     if named.is_empty() {
         return Ok(find_all(&Code::of_power(Power::Linear)));
@@ -53,11 +53,11 @@ pub(in crate::cli) fn selected_codes(named: &[Code]) -> Result<Vec<SelectedCode>
     found.collect()
 }
 
-/// The codes `names` as they are installed here, looked up at the same time.
+/// Looks up the codes `names` in parallel, as they are installed here.
 pub(in crate::cli) fn find_all(names: &[Code]) -> Vec<SelectedCode> {
     let find = || in_parallel(names, names.len(), |name| SelectedCode::find(name.clone()));
     match names {
-        // This one is part of the program.
+        // The native code is part of the program.
         [] => find(),
         [one] if one.is_native() => find(),
         [one] => during(&format!("locating the program of {one}"), find),

@@ -98,12 +98,12 @@ fn one_of<T: Copy + Send + Sync + 'static, const N: usize>(
 }
 
 impl LawOptions {
-    /// The power, if it is given.
+    /// Returns the power, if it is given.
     pub fn power(&self) -> Option<Power> {
         self.law
     }
 
-    /// `own` with the given parts; another power brings the other parts that are usual with it.
+    /// Returns `own` with the given parts. A power other than its own brings its usual other parts with it.
     fn over(&self, own: Law) -> Law {
         let other = self.law.filter(|power| *power != own.power);
         let base = other.map_or(own, Law::of_power);
@@ -121,7 +121,7 @@ impl LawOptions {
 }
 
 impl ConventionOptions {
-    /// Refuses options that leave an arm to be guessed.
+    /// Refuses options that leave out an arm.
     pub fn check_named_arms(&self) -> Result<(), InvalidValue> {
         let arms = [
             ("--pair-arm", self.pair_arm),
@@ -139,14 +139,15 @@ impl ConventionOptions {
         })
     }
 
-    /// The convention of `code` for stacks of so many `bodies`, with the given parts in place of its own.
+    /// Returns the convention of `code` for stacks of this number of `bodies`, with the given parts in place of its
+    /// own.
     pub fn of(&self, code: &SettledCode, bodies: u8) -> Result<ContactConvention, InvalidValue> {
         self.over(code, |arms, law| {
             ContactConvention::usual(arms, law, bodies)
         })
     }
 
-    /// The same of contacts that belong to no stack, or to one of which nothing else is known.
+    /// Does the same for contacts outside a stack, or in a stack of which nothing else is known.
     pub fn of_contacts(&self, code: &SettledCode) -> Result<ContactConvention, InvalidValue> {
         self.over(code, |arms, law| ContactConvention {
             arms,
@@ -155,7 +156,8 @@ impl ConventionOptions {
         })
     }
 
-    /// The given parts in place of those of `code`; the others of a code that takes any convention are `usual` with them.
+    /// Puts the given parts in place of those of `code`. If the code takes any convention, the other parts are the
+    /// `usual` ones.
     fn over(
         &self,
         code: &SettledCode,
@@ -181,7 +183,8 @@ impl ConventionOptions {
     }
 }
 
-/// `own` with the given coefficients; a given torque arm is the kinematic arm too, unless that is given as well.
+/// Returns `own` with the given coefficients. A given torque arm is also the kinematic arm, unless that is given as
+/// well.
 fn replaced(own: ContactArms, torque: Option<f64>, kinematic: Option<f64>) -> ContactArms {
     // Adding zero turns -0 into 0, which is the same arm and must be the same case.
     ContactArms {

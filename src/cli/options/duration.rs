@@ -3,7 +3,7 @@
 use jiff::SignedDuration;
 use std::time::Duration;
 
-/// The duration in `text`: `90s`, `1h 30min`, or `[D-][HH:]MM:SS`.
+/// Reads a duration: `90s`, `1h 30min`, or `[D-][HH:]MM:SS`.
 pub(super) fn duration(text: &str) -> Result<Duration, String> {
     let found = match text.contains(':') {
         true => of_clock(text),
@@ -14,13 +14,13 @@ pub(super) fn duration(text: &str) -> Result<Duration, String> {
         .ok_or_else(|| "accepted is a time above 0, as 90s, 1h 30min, or [D-][HH:]MM:SS".to_owned())
 }
 
-/// A bare number is refused: it is seconds to some programs, and minutes to Slurm.
+/// Reads a duration with units. A bare number is refused: it is seconds to some programs, and minutes to Slurm.
 fn of_units(text: &str) -> Option<Duration> {
     let parsed: SignedDuration = text.parse().ok()?;
     parsed.try_into().ok()
 }
 
-/// A duration as `squeue --format=%L` prints it.
+/// Reads a duration as `squeue --format=%L` prints it.
 fn of_clock(text: &str) -> Option<Duration> {
     let (days, clock) = text.split_once('-').unwrap_or(("0", text));
     let parts: Option<Vec<u64>> = clock.split(':').map(number).collect();

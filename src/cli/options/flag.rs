@@ -2,7 +2,7 @@
 
 use crate::model::InvalidValue;
 
-/// `error` with the flag in place of the key of a case file.
+/// Returns `error` with the flag in place of the key of a case file.
 pub(in crate::cli) fn as_flag(error: InvalidValue) -> InvalidValue {
     let flag = match error.key.as_str() {
         "stack.floor_friction" => "--mu",

@@ -17,7 +17,7 @@ pub(in crate::cli) enum Format {
 
 impl Format {
     /// Prints `tables`, the results of `command`. The text for a terminal comes from `people`, unless all tables are
-    /// empty; CSV is that of the first table alone.
+    /// empty. CSV has the first table only.
     pub fn print(
         self,
         tables: &[DataTable],

@@ -38,7 +38,7 @@ impl Quantity for Friction {
 }
 
 impl Friction {
-    /// The friction for this stack.
+    /// Returns the friction for this stack.
     pub fn of(self, stack: &Stack) -> f64 {
         match self {
             Self::Number(number) => number,
@@ -49,7 +49,7 @@ impl Friction {
         }
     }
 
-    /// The friction for cylinders.
+    /// Returns the friction for cylinders.
     pub fn of_cylinders(self) -> f64 {
         self.of(&Stack::paper(f64::NAN, f64::NAN))
     }

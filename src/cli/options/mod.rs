@@ -28,7 +28,7 @@ pub(super) use values::{GRAMMAR, Values, single};
 
 use clap::Args;
 
-/// The options of `T`, each by its name.
+/// Returns the names of the options of `T`.
 pub(super) fn options_of<T: Args>() -> Vec<clap::Id> {
     let command = T::augment_args(clap::Command::default());
     let options = command.get_arguments();

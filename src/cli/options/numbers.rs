@@ -1,8 +1,8 @@
-//! Numbers of the command line; what is none is refused with what would be accepted.
+//! Parses numbers on the command line; errors say what is accepted.
 
 use std::ops::RangeInclusive;
 
-/// Reads a finite number; in what range it must be, the problem says.
+/// Reads a finite number. The model checks its range.
 pub(in crate::cli) fn number(text: &str) -> Result<f64, String> {
     let number: Option<f64> = text.trim().parse().ok();
     let number = number.filter(|number| number.is_finite());

@@ -8,7 +8,7 @@ use crate::study::yield_force::Judgement;
 use clap::Args;
 use std::path::PathBuf;
 
-/// The name of the tests in JUnit XML.
+/// The name of the test suites in JUnit XML.
 const SUITES: &str = "tristack";
 
 /// What is printed of the rows of a crosscheck.

@@ -12,7 +12,7 @@ use std::time::Duration;
 
 /// The environment variable with the directory of recorded runs.
 const REFERENCE: &str = "TRISTACK_REFERENCE";
-/// More runs at the same time than any machine has cores.
+/// Largest number of runs at the same time, more than any machine has cores.
 const MOST_JOBS: u16 = 4096;
 
 /// The store of runs.
@@ -48,7 +48,7 @@ pub(in crate::cli) struct RunOptions {
 }
 
 impl RunOptions {
-    /// These options as settings of the schedule.
+    /// Converts these options to settings of the schedule, and starts the time that is left.
     pub fn settings(&self) -> Result<Settings<'static>, CliError> {
         let cores = || std::thread::available_parallelism().map_or(1, usize::from);
         if let Some(time) = self.time_left {
@@ -66,12 +66,12 @@ impl RunOptions {
 }
 
 impl StoreOptions {
-    /// The store, which is created if there is none.
+    /// Opens the store, and creates it if there is none.
     pub fn opened(&self) -> Result<Store, CliError> {
         Ok(Store::open_as(&self.directory()?, self.sharing())?)
     }
 
-    /// Who may write to the store.
+    /// Returns who may write to the store.
     pub fn sharing(&self) -> Sharing {
         match self.shared_store {
             true => Sharing::Shared,
@@ -79,7 +79,7 @@ impl StoreOptions {
         }
     }
 
-    /// The directory of the store, which may be absent.
+    /// Returns the directory of the store, which may not exist.
     pub fn directory(&self) -> Result<PathBuf, InvalidValue> {
         let from_environment = || directory_from("TRISTACK_STORE");
         let from_cache = || dirs::cache_dir().map(|cache| cache.join("tristack"));
@@ -92,7 +92,7 @@ impl StoreOptions {
     }
 }
 
-/// The checked value of `--time-limit`.
+/// Checks the value of `--time-limit`.
 pub(in crate::cli) fn time_limit(seconds: Option<f64>) -> Result<Option<Duration>, InvalidValue> {
     let checked = seconds.map(|seconds| {
         let limit = Duration::try_from_secs_f64(seconds).ok();
@@ -103,14 +103,14 @@ pub(in crate::cli) fn time_limit(seconds: Option<f64>) -> Result<Option<Duration
     checked.transpose()
 }
 
-/// The recorded runs in the directory that `TRISTACK_REFERENCE` names, or else those inside the program.
+/// Returns the recorded runs in the directory that `TRISTACK_REFERENCE` names, or else those inside the program.
 fn recorded() -> Recorded {
     let directory = directory_from(REFERENCE);
     directory.map_or_else(Recorded::embedded, |directory| Recorded::new(&directory))
 }
 
-/// The directory that `record` writes to: the one that `TRISTACK_REFERENCE` names, or else that of the checkout in which
-/// the program is run. The program does not know where it was built, so that it can be passed on.
+/// Returns the directory that `record` writes to: the one that `TRISTACK_REFERENCE` names, or else that of the
+/// checkout in which the program is run. The program does not know where it was built, so that it can be passed on.
 pub(in crate::cli) fn recording_directory() -> Result<PathBuf, InvalidValue> {
     let recorded = PathBuf::from("reference/recorded");
     let of_checkout = || recorded.is_dir().then_some(recorded);
@@ -123,7 +123,7 @@ pub(in crate::cli) fn recording_directory() -> Result<PathBuf, InvalidValue> {
     })
 }
 
-/// The directory that an environment variable names, unless the variable is empty.
+/// Returns the directory that an environment variable names; `None` if the variable is unset or empty.
 fn directory_from(variable: &str) -> Option<PathBuf> {
     let value = std::env::var_os(variable).filter(|value| !value.is_empty());
     value.map(PathBuf::from)

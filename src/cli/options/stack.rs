@@ -7,7 +7,7 @@ use super::values::{Values, single};
 use crate::model::{InvalidValue, Material, PAPER_BODIES, PAPER_CYLINDER_FRICTION, Power, Stack};
 use clap::Args;
 
-/// Most stacks of one command: a thousand frictions by a thousand stiffnesses.
+/// Largest number of stacks in one command: a thousand frictions by a thousand stiffnesses.
 const MOST_STACKS: usize = 1_000_000;
 
 /// The parameters of a stack other than floor friction and stiffness.
@@ -24,14 +24,14 @@ pub(in crate::cli) struct StackOptions {
     pub bodies: u8,
 }
 
-/// Reads `--bodies`; the stack says why there are not more.
+/// Reads `--bodies`. The check of the stack says why there cannot be more.
 fn bodies(text: &str) -> Result<u8, String> {
     let number = text.parse();
     number.map_err(|_| "accepted is a whole number from 2 to 5".to_owned())
 }
 
 impl StackOptions {
-    /// The stiffness ratio of pairs, in a law of this power.
+    /// Returns the stiffness ratio of pairs in a law of this power.
     pub fn kappa(&self, power: Power) -> f64 {
         self.kappa
             .unwrap_or_else(|| Stack::usual_stiffness_ratio(power))
@@ -46,7 +46,7 @@ impl StackOptions {
         stack.refuse_spheres().map_err(as_flag)
     }
 
-    /// The checked stack with floor friction `mu` and this stiffness, in a law of this power.
+    /// Returns the checked stack with floor friction `mu` and this stiffness, in a law of this power.
     pub fn stack(&self, mu: Friction, stiffness: f64, power: Power) -> Result<Stack, InvalidValue> {
         let mut stack = Stack {
             cylinder_friction: self.mu_d,
@@ -85,7 +85,7 @@ pub(in crate::cli) struct MaterialOptions {
 }
 
 impl MaterialOptions {
-    /// The material; without a modulus, its stiffness means nothing.
+    /// Returns the material; `None` without a Poisson's ratio. Without a modulus, its stiffness means nothing.
     fn material(&self) -> Option<Material> {
         Some(Material {
             youngs_modulus: self.youngs.unwrap_or(1.0),
@@ -93,14 +93,14 @@ impl MaterialOptions {
         })
     }
 
-    /// The stiffness that the modulus gives; `None` without one.
+    /// Returns the stiffness that the modulus gives; `None` without a modulus.
     fn stiffness(&self) -> Option<f64> {
         self.youngs
             .and(self.material())
             .map(|own| own.pair_stiffness())
     }
 
-    /// `others` with the stiffness ratio of the material, if there is one, in a law of this power.
+    /// Returns `others` with the stiffness ratio of the material, if there is one, in a law of this power.
     fn over(&self, others: &StackOptions, power: Power) -> Result<StackOptions, InvalidValue> {
         let Some(material) = self.material() else {
             return Ok(others.clone());
@@ -146,12 +146,12 @@ pub(in crate::cli) struct OneStackOptions {
 }
 
 impl OneStackOptions {
-    /// Number of bodies on the floor.
+    /// Returns the number of bodies on the floor.
     pub fn bodies(&self) -> u8 {
         self.others.bodies
     }
 
-    /// The checked stack, in a law of this power.
+    /// Returns the checked stack, in a law of this power.
     pub fn stack(&self, power: Power) -> Result<Stack, InvalidValue> {
         let others = self.material.over(&self.others, power)?;
         let own = self.stiffness.map(|stiffness| stiffness.0);
@@ -183,13 +183,13 @@ pub(in crate::cli) struct StackListOptions {
 }
 
 impl StackListOptions {
-    /// Number of bodies on the floor.
+    /// Returns the number of bodies on the floor.
     pub fn bodies(&self) -> u8 {
         self.others.bodies
     }
 
-    /// The checked stacks of every combination of friction and stiffness, in a law of this power; the friction varies
-    /// fastest.
+    /// Returns the checked stacks of every combination of friction and stiffness, in a law of this power; the
+    /// friction varies fastest.
     pub fn stacks(&self, power: Power) -> Result<Vec<Stack>, InvalidValue> {
         let others = self.material.over(&self.others, power)?;
         let material = self.material.stiffness().map(Stiffness);

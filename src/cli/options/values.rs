@@ -6,18 +6,18 @@ pub(in crate::cli) const GRAMMAR: &str = "--mu and --stiffness take values and r
     1e2:1e6:x10. `critical`, or `mu_c`, is the friction above which rigid bodies never yield: 2 - sqrt 3 of cylinders, \
     sqrt 3 - sqrt 2 of three spheres, sqrt 2 - 1 of four. A command for one stack takes one value.";
 
-/// Most values of a list.
+/// Largest number of values in a list.
 const MOST_VALUES: usize = 10_000;
 
-/// Digits of the values of a range of equal factors, so that they carry no rounding of the powers.
+/// Significant digits of the values in a range of equal factors, few enough to leave out the rounding of the powers.
 const DIGITS_OF_POWERS: usize = 12;
 
-/// A quantity that a command can be given several values of.
+/// A quantity for which a command can take several values.
 pub(in crate::cli) trait Quantity: Sized + PartialEq {
-    /// One value, as an error says what is accepted.
+    /// An accepted value, as an error describes it.
     const ACCEPTED: &'static str;
     fn of_number(number: f64) -> Self;
-    /// The value that has this name.
+    /// Returns the value that has this name.
     fn named(word: &str) -> Option<Self>;
 }
 
@@ -73,7 +73,7 @@ fn value<Q: Quantity>(text: &str) -> Option<Q> {
     Q::named(text).or_else(|| text.parse().ok().map(Q::of_number))
 }
 
-/// The values of one item of a list, or what is wrong with it.
+/// Reads the values of one item of a list; the error says what is wrong with it.
 fn item_values<Q: Quantity>(item: &str) -> Result<Vec<Q>, String> {
     let parts: Vec<&str> = item.split(':').collect();
     let [from, to, step] = parts[..] else {
@@ -104,19 +104,19 @@ fn item_values<Q: Quantity>(item: &str) -> Result<Vec<Q>, String> {
     }
 }
 
-/// `from`, `from` + `step`, … up to `to`, which is included if it lies on the grid.
+/// Returns `from`, `from` + `step`, … up to `to`, which is included if it lies on the grid.
 fn equal_steps(from: f64, to: f64, step: f64) -> Result<Vec<f64>, String> {
     if step <= 0.0 {
         return Err(format!("its step is {step}"));
     }
-    // As far as the ends and the step are known.
+    // Precision to which the ends and the step are known.
     let last_digits = 1e-9_f64.max(f64::EPSILON * (from.abs() + to.abs()) / step);
     let count = further_values((to - from) / step + last_digits)?;
     let further = (1..=count).map(|index| rounded(from + step * f64::from(index), step));
     Ok(std::iter::once(from).chain(further).collect())
 }
 
-/// `from`, `from` × `factor`, … up to `to`, which is included if it lies on the grid.
+/// Returns `from`, `from` × `factor`, … up to `to`, which is included if it lies on the grid.
 fn equal_factors(from: f64, to: f64, factor: f64) -> Result<Vec<f64>, String> {
     if factor <= 1.0 {
         return Err(format!("its factor is {factor}"));
@@ -133,7 +133,7 @@ fn equal_factors(from: f64, to: f64, factor: f64) -> Result<Vec<f64>, String> {
     Ok(std::iter::once(from).chain(further).collect())
 }
 
-/// The whole number of values after the first, below the limit.
+/// Returns the whole number of values after the first, if it is below the limit.
 fn further_values(count: f64) -> Result<u32, String> {
     let count = count.floor();
     match (0.0..MOST_VALUES as f64).contains(&count) {
@@ -142,8 +142,8 @@ fn further_values(count: f64) -> Result<u32, String> {
     }
 }
 
-/// `value` to twelve decimals, or to as many as `step` has, without round-off from the multiplication by the step
-/// (0.1 + 2 × 0.1 is not 0.3).
+/// Rounds `value` to twelve decimals, or to as many as `step` has, without the round-off of the multiplication by the
+/// step (0.1 + 2 × 0.1 is not 0.3).
 fn rounded(value: f64, step: f64) -> f64 {
     const FEWEST: f64 = 12.0;
     let needed = (1.0 - libm::floor(libm::log10(step))).max(FEWEST);

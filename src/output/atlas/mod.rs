@@ -1,4 +1,5 @@
-//! The atlas as a static site: what every code, version and style means by a contact, made from what is on file alone.
+//! The atlas as a static site that compares contact conventions across codes, versions and styles. It is built from
+//! files alone.
 
 mod pages;
 mod view;

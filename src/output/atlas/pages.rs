@@ -32,16 +32,17 @@ const TEMPLATES: [(&str, &str); 7] = [
 /// The page of the problems.
 const PROBLEMS: &str = "problems.html";
 
-/// At most so many figures of one change.
+/// Maximum number of figures of one change.
 const MOST_FIGURES: usize = 4;
 
 /// A file of the site: path and content.
 type SiteFile = (String, Vec<u8>);
 
-/// A problem with an exact answer: name, JSON of its verdicts, and the same, read.
+/// A problem with an exact answer: its name, its verdicts as JSON, and the same verdicts, parsed.
 pub(crate) type Problem = (String, Vec<u8>, Verdicts);
 
-/// All files of the site, made by `command`; the same bytes for the same passports and verdicts.
+/// Returns all files of the site. `command` is the command that makes it. The bytes are the same for the same
+/// passports and verdicts.
 pub(crate) fn atlas_files(atlas: &Atlas, problems: &[Problem], command: &str) -> Vec<SiteFile> {
     let site = Site::new(atlas, problems, command);
     let rows = entries(atlas);
@@ -67,7 +68,7 @@ pub(crate) fn atlas_files(atlas: &Atlas, problems: &[Problem], command: &str) ->
     files
 }
 
-/// What all pages are made of.
+/// The data and templates of all pages.
 struct Site<'a> {
     atlas: &'a Atlas,
     problems: &'a [Problem],
@@ -145,7 +146,7 @@ impl<'a> Site<'a> {
         )
     }
 
-    /// Page and title of every property that some passport has, by its group.
+    /// Returns page and title of every property that some passport has, by its group.
     fn meanings_by_group(&self) -> Vec<(&str, Vec<(String, &str)>)> {
         let known = self.atlas.properties();
         let mut groups: Vec<(&str, Vec<(String, &str)>)> = Vec::new();
@@ -219,7 +220,7 @@ impl<'a> Site<'a> {
                 "rows": rows.collect::<Vec<_>>(),
                 "edges": edges.collect::<Vec<_>>(),
             });
-            // Names that differ in their signs alone have one page.
+            // Programs whose names differ only in case or punctuation share a page.
             let page = pages.entry(software_page(&own.software));
             page.or_insert((&own.software, Vec::new())).1.push(style);
         }
@@ -243,7 +244,7 @@ impl<'a> Site<'a> {
         files.collect()
     }
 
-    /// The values of the latest versions, and what an arm does to the yield force.
+    /// Draws what an arm does to the yield force, if the property is one, and the values of the latest versions.
     fn property_figures(&self, view: &PropertyView) -> Vec<String> {
         let name = &view.meaning.name;
         let arms = ConventionKey::ARMS.into_iter();
@@ -324,14 +325,14 @@ impl<'a> Site<'a> {
     }
 }
 
-/// How many properties are as asked for.
+/// Returns how many properties are as declared or asked for, and how many there are.
 fn counted(own: &NamedPassport) -> (usize, usize) {
     let properties = own.passport.properties.iter();
     let agreeing = properties.filter(|row| row.verdict == Verdict::Agrees);
     (agreeing.count(), own.passport.properties.len())
 }
 
-/// The passport in one sentence, which its authors may cite.
+/// Sums up the passport in one sentence, which its authors may cite.
 fn sentence(own: &NamedPassport) -> String {
     let passport = &own.passport;
     let (agreeing, all) = counted(own);
@@ -346,7 +347,7 @@ fn sentence(own: &NamedPassport) -> String {
     )
 }
 
-/// What changed, drawn: stiffnesses over the overlap, other numbers that are known over all versions of the style.
+/// Draws what changed: a stiffness over the overlap, any other known number over all versions of the style.
 fn drawings(atlas: &Atlas, edge: &Edge) -> Vec<DrawnChange> {
     let mut drawn: Vec<(String, DrawnChange)> = Vec::new();
     for change in &edge.difference.changes {
@@ -373,14 +374,14 @@ fn drawings(atlas: &Atlas, edge: &Edge) -> Vec<DrawnChange> {
     drawn.into_iter().map(|(_, figure)| figure).collect()
 }
 
-/// The laws of the stiffness `name` in both versions, if it is one.
+/// Returns the laws of the stiffness `name` in both versions, or `None` if `name` is no stiffness.
 fn stiffness_laws(edge: &Edge, name: &str) -> Option<[StiffnessLaw; 2]> {
     let law = |own: &NamedPassport| StiffnessLaw::of(&own.passport, name);
     name.ends_with("stiffness")
         .then(|| Some([law(edge.before)?, law(edge.after)?]))?
 }
 
-/// The values of `property` in all versions of the style.
+/// Returns the values of `property` in all versions of the style.
 fn versions(atlas: &Atlas, edge: &Edge, property: &str) -> Vec<(String, Vec<f64>)> {
     let mut lineages = atlas.lineages();
     let own = lineages.find(|versions| versions.contains(edge.after));
@@ -395,7 +396,7 @@ fn versions(atlas: &Atlas, edge: &Edge, property: &str) -> Vec<(String, Vec<f64>
     versions.collect()
 }
 
-/// A badge for the page of a code: how many of its properties are as declared.
+/// Draws a badge for the page of a code: how many of its properties are as declared.
 fn badge(own: &NamedPassport) -> String {
     let (agreeing, all) = counted(own);
     let (left, right) = (

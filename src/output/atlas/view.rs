@@ -1,4 +1,4 @@
-//! What the pages show of passports.
+//! The parts of passports that the pages show.
 
 use crate::code::{Code, ConventionKey};
 use crate::output::number::{one_digit, significant};
@@ -8,13 +8,13 @@ use crate::study::atlas::{Atlas, Change, Edge, Meaning, NamedPassport, base_name
 use crate::study::convention::{KeyRow, PropertyRow, plain};
 use serde::Serialize;
 
-/// A number or word of the atlas, and the passport that it is from.
+/// A property in the atlas, and the passport that it is from.
 pub(crate) struct Entry<'a> {
     passport: &'a NamedPassport,
     property: &'a PropertyRow,
 }
 
-/// Every number of the atlas.
+/// Returns every property of every passport.
 pub(crate) fn entries(atlas: &Atlas) -> Vec<Entry<'_>> {
     let passports = atlas.passports.iter();
     let entries = passports.flat_map(|passport| {
@@ -24,7 +24,7 @@ pub(crate) fn entries(atlas: &Atlas) -> Vec<Entry<'_>> {
     entries.collect()
 }
 
-/// Every number of the atlas, for programs.
+/// Returns the table of the atlas for programs, one row per property of a passport.
 pub(crate) fn atlas_table<'a>(entries: &'a [Entry<'a>]) -> DataTable<'a> {
     Columns::<&Entry>::new(
         "atlas",
@@ -56,13 +56,13 @@ pub(crate) fn atlas_table<'a>(entries: &'a [Entry<'a>]) -> DataTable<'a> {
 /// A cell of a table on the site.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub(super) struct Cell {
-    /// What it says.
+    /// The text that it shows.
     pub text: String,
-    /// What is said of it: `paper`, `other`, `unknown`, `differs` or nothing.
+    /// Its class on the page: `paper`, `other`, `unknown`, `differs` or empty.
     pub class: &'static str,
-    /// Where its evidence stands.
+    /// Link to its evidence.
     pub link: String,
-    /// The same in more words.
+    /// Its tooltip: the same in more words.
     pub title: String,
 }
 
@@ -76,15 +76,15 @@ pub(super) struct Heading {
     source: Source,
 }
 
-/// Where the cells of a column are from.
+/// The source of the cells of a column.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Source {
     Key(ConventionKey),
-    /// A property that only laws that are not linear have, and its value for linear springs.
+    /// A property that only nonlinear laws have, and its value for linear springs.
     Law(&'static str, f64),
 }
 
-/// The columns of the matrix.
+/// Returns the columns of the matrix.
 pub(super) fn headings(atlas: &Atlas) -> Vec<Heading> {
     let known = atlas.properties();
     let keys = [
@@ -154,7 +154,7 @@ pub(super) fn headings(atlas: &Atlas) -> Vec<Heading> {
 }
 
 impl Heading {
-    /// What `own` has in this column.
+    /// Returns the cell of `own` in this column.
     pub fn cell(&self, own: &NamedPassport) -> Cell {
         match self.source {
             Source::Key(key) => key_cell(own, key),
@@ -229,7 +229,7 @@ fn described(row: &KeyRow) -> String {
     )
 }
 
-/// What `own` has for a property.
+/// Returns the cell of `own` for a property.
 pub(super) fn property_cell(own: &NamedPassport, row: &PropertyRow) -> Cell {
     let class = match row.verdict {
         Verdict::Differs => "differs",
@@ -244,7 +244,7 @@ pub(super) fn property_cell(own: &NamedPassport, row: &PropertyRow) -> Cell {
     }
 }
 
-/// A number as measured, to the digits that are sure, and its declaration.
+/// Formats a number as measured, with its uncertainty, and as declared.
 pub(super) fn measured(row: &PropertyRow) -> String {
     let number = match row.measured.zip(row.uncertainty) {
         Some((value, open)) => format!("{} ± {}", significant(value, 9), one_digit(open)),
@@ -256,16 +256,16 @@ pub(super) fn measured(row: &PropertyRow) -> String {
     }
 }
 
-/// A number to six decimals.
+/// Formats a number to six decimals.
 fn short(value: f64) -> String {
     let rounded = (value * 1e6).round() / 1e6 + 0.0;
     rounded.to_string().replace('-', "−")
 }
 
-/// Numbers that are no further apart are the same to people.
+/// Largest difference of two numbers that count as the same.
 const SAME: f64 = 1e-6;
 
-/// The page of the property `name`, if it is one of those that are `known` and have a meaning.
+/// Returns the page of the property `name`, if that is one of the `known` ones and has a meaning.
 pub(super) fn linked_page(name: &str, known: &[&str]) -> Option<String> {
     let base = base_name(name).0;
     let is_known = known.iter().any(|own| base_name(own).0 == base);
@@ -273,12 +273,12 @@ pub(super) fn linked_page(name: &str, known: &[&str]) -> Option<String> {
     is_told.then(|| property_page(base))
 }
 
-/// The page of a property.
+/// Returns the page of a property.
 pub(super) fn property_page(base: &str) -> String {
     format!("property-{}.html", base.replace('_', "-"))
 }
 
-/// The page of a program.
+/// Returns the page of a program.
 pub(super) fn software_page(software: &str) -> String {
     format!("code-{}.html", plain(software))
 }
@@ -295,7 +295,7 @@ pub(super) struct Row {
     /// The page of the program.
     pub page: String,
     pub cells: Vec<Cell>,
-    /// What is not as asked for.
+    /// The properties that are not as declared or asked for.
     pub differing: Vec<String>,
 }
 
@@ -315,7 +315,7 @@ impl Row {
     }
 }
 
-/// The passports with whether each is the latest of its style.
+/// Returns the passports, each with whether it is the latest of its style.
 pub(super) fn marked(atlas: &Atlas) -> Vec<(&NamedPassport, bool)> {
     let lineages = atlas.lineages();
     let marked = lineages.flat_map(|versions| {
@@ -401,7 +401,7 @@ impl EdgeView {
 pub(super) struct PropertyView {
     pub meaning: &'static Meaning,
     pub page: String,
-    /// The kinds of contact, or the axes, one a column.
+    /// The kinds of contact, or the axes, one per column.
     pub kinds: Vec<String>,
     pub rows: Vec<Row>,
     pub figures: Vec<String>,

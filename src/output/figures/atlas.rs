@@ -8,7 +8,7 @@ use crate::study::atlas::{ArmCurve, Spread, StiffnessLaw};
 
 /// Size in pixels of the only panel of a figure.
 const WIDE: (f64, f64) = (620.0, 380.0);
-/// Size of a panel of a history.
+/// Size in pixels of the only panel of a figure that compares two versions.
 const NARROW: (f64, f64) = (420.0, 280.0);
 
 /// Strokes of conventions, in turn.
@@ -21,7 +21,7 @@ const STROKES: [Stroke; 6] = [
     Stroke::new("#c98500", 1.5, &[6.0, 2.0, 1.5, 2.0, 1.5, 2.0]),
 ];
 
-/// The same material under the arms of every code.
+/// Draws the change of the yield force of one material under the arms of every code.
 pub(crate) fn spread_svg(spread: &[Spread]) -> String {
     let forces = spread.iter().flat_map(|own| &own.points);
     let forces = forces.filter_map(|(_, change)| *change);
@@ -40,7 +40,7 @@ pub(crate) fn spread_svg(spread: &[Spread]) -> String {
     draw_alone(&panel, WIDE).svg()
 }
 
-/// What one arm alone does to the yield force, with the codes on the curves.
+/// Draws what one arm alone does to the yield force, with the codes on the curves.
 pub(crate) fn arm_svg(key: &str, curves: &[ArmCurve]) -> String {
     let forces = curves.iter().flat_map(|own| &own.points);
     let forces = forces.map(|(_, change)| *change);
@@ -66,7 +66,7 @@ pub(crate) fn arm_svg(key: &str, curves: &[ArmCurve]) -> String {
     draw_alone(&panel, WIDE).svg()
 }
 
-/// A stiffness over the overlap, as the micro-tests of two versions have measured it.
+/// Draws a stiffness over the overlap, as the micro-tests of two versions have measured it.
 pub(crate) fn stiffness_svg(name: &str, before: &StiffnessLaw, after: &StiffnessLaw) -> String {
     let laws = [before, after];
     let overlaps = (1..=60).map(|step| 0.3 * f64::from(step) / 60.0);
@@ -89,7 +89,7 @@ pub(crate) fn stiffness_svg(name: &str, before: &StiffnessLaw, after: &Stiffness
     draw_alone(&panel, NARROW).svg()
 }
 
-/// Values, printed beside their marks, in a row for each code or version.
+/// Draws values, printed beside their marks, in a row for each code or version.
 pub(crate) fn values_svg(rows: &[(String, Vec<f64>)]) -> String {
     let (low, high) = range(rows.iter().flat_map(|(_, values)| values.iter().copied()));
     let (span, count) = (high - low, rows.len() as f64);
@@ -107,7 +107,7 @@ pub(crate) fn values_svg(rows: &[(String, Vec<f64>)]) -> String {
     };
     for (index, (words, values)) in rows.iter().enumerate() {
         let y = -(index as f64 + 1.0);
-        // An underscore would begin an index.
+        // An underscore would begin a subscript.
         panel.words(
             words.replace('_', " "),
             (left + 0.02 * span, y - 0.2),
@@ -129,12 +129,12 @@ pub(crate) fn values_svg(rows: &[(String, Vec<f64>)]) -> String {
     draw_alone(&panel, (WIDE.0, 74.0 + 17.0 * count)).svg()
 }
 
-/// The range of `values` and 0, with a margin.
+/// Returns the range of `values` and 0, with a margin.
 fn range(values: impl Iterator<Item = f64>) -> (f64, f64) {
     let (low, high) = values.fold((0.0, 0.0), |(low, high): (f64, f64), value| {
         (low.min(value), high.max(value))
     });
-    // Of values that are 0 but for rounding nothing is to be seen.
+    // A wide margin hides the rounding of values that are otherwise 0.
     let margin = match high - low {
         span if span < 1e-6 => 1.0,
         span => 0.25 * span,

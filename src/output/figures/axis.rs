@@ -18,7 +18,7 @@ pub(super) enum Scale {
     Linear(f64, usize),
     /// At powers of ten and, on short axes, at 2 and 5 times these.
     Log,
-    /// None.
+    /// No ticks.
     Bare,
 }
 
@@ -58,12 +58,12 @@ impl Axis {
         Self::new("", range, Scale::Bare)
     }
 
-    /// The floor friction, over the range of Fig. 2(a).
+    /// An axis of the floor friction, over the range of Fig. 2(a).
     pub fn friction() -> Self {
         Self::linear("floor friction μ", (0.08, 0.52), 0.1, 1)
     }
 
-    /// The position of `value`: 0 at the lower end, 1 at the upper end.
+    /// Returns the position of `value`: 0 at the lower end, 1 at the upper end.
     pub fn part(&self, value: f64) -> f64 {
         let (low, high) = self.range;
         match self.scale {
@@ -72,7 +72,7 @@ impl Axis {
         }
     }
 
-    /// The value at the position `part`.
+    /// Returns the value at the position `part`.
     pub fn at(&self, part: f64) -> f64 {
         let (low, high) = self.range;
         match self.scale {
@@ -86,12 +86,12 @@ impl Axis {
         (self.range.0..=self.range.1).contains(&value)
     }
 
-    /// `value`, limited to the range of the axis.
+    /// Limits `value` to the range of the axis.
     pub fn clamp(&self, value: f64) -> f64 {
         value.clamp(self.range.0, self.range.1)
     }
 
-    /// The ticks on the axis with their labels.
+    /// Returns the ticks on the axis with their labels.
     pub fn ticks(&self) -> Vec<(f64, String)> {
         let (low, high) = self.range;
         let log_range = (libm::log10(low).floor(), libm::log10(high));
@@ -120,19 +120,19 @@ const SHORT: f64 = 1e3;
 /// Largest distance of a tick beyond the end of its axis by round-off, relative to the axis.
 const SLACK: f64 = 1e-9;
 
-/// The multiples of `step` in `range`.
+/// Returns the integers whose multiples of `step` are in the range.
 fn multiples((low, high): (f64, f64), step: f64) -> impl Iterator<Item = i64> {
     let slack = SLACK * (high - low).abs();
     let first = ((low - slack) / step).ceil() as i64;
     first..=((high + slack) / step).floor() as i64
 }
 
-/// The double nearest to `digit` times ten to the `exponent`, which the product of two doubles may miss.
+/// Returns the double nearest to `digit` times ten to the `exponent`, which the product of two doubles may miss.
 fn scientific(digit: u8, exponent: i64) -> f64 {
     format!("{digit}e{exponent}").parse().unwrap_or(f64::NAN)
 }
 
-/// `value` as a power of ten with raised exponent; empty for any other value.
+/// Formats `value` as a power of ten with raised exponent; empty for any other value.
 pub(super) fn power_of_ten(value: f64) -> String {
     const RAISED: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
     let exponent = libm::log10(value);

@@ -9,7 +9,7 @@ use crate::paper::published::{Published, PublishedForce};
 use crate::study::yield_force::Judgement;
 use crate::study::{MAX_TOLERANCE, Verdict};
 
-/// Range of shown errors; those below and above are drawn at its ends.
+/// Range of errors shown; errors outside of it are drawn at its ends.
 const ERRORS: (f64, f64) = (1e-10, 1e-4);
 
 /// The axis of F + 3.
@@ -17,12 +17,12 @@ pub(super) fn load_axis(range: (f64, f64)) -> Axis {
     Axis::log("load at yield F + 3 = (f + 3 m g)/(m g)", range)
 }
 
-/// The codes that have at least one row, in the order of tables.
+/// Returns the codes that have at least one row, in the order of tables.
 pub(super) fn present(judgements: &[Judgement]) -> Vec<Code> {
     Code::distinct(judgements.iter().map(|row| &row.code))
 }
 
-/// Marks at F + 3 of every row with a yield force, except for variants of a code with the contacts of another.
+/// Draws a mark at F + 3 of every row with a yield force, except for variants with the contacts of another variant.
 pub(super) fn loads(panel: &mut Panel, judgements: &[Judgement], x: impl Fn(&Judgement) -> f64) {
     mark(panel, judgements, Mark::small, |row| {
         let shown = !row.code.repeats_another();
@@ -30,7 +30,7 @@ pub(super) fn loads(panel: &mut Panel, judgements: &[Judgement], x: impl Fn(&Jud
     });
 }
 
-/// The published points of a figure, each where `place` puts it.
+/// Draws the published points of a figure, each where `place` puts it.
 pub(super) fn published(
     panel: &mut Panel,
     published: Option<&Published>,
@@ -42,14 +42,14 @@ pub(super) fn published(
     panel.key(Sample::Mark(PUBLISHED), "published");
 }
 
-/// What the published data in a figure are, for its caption.
+/// Says what the published data in a figure are, for its caption.
 pub(super) fn published_words(published: Option<&Published>, what: &str) -> String {
     published.map_or_else(String::new, |_| {
         format!(" Published: the authors' {what} ([](#table-published)).")
     })
 }
 
-/// A panel with |error| of every row, a ring around each on which there is no agreement, and the largest tolerance.
+/// Returns a panel with |error| of every row, rings around inconclusive and differing rows, and the largest tolerance.
 pub(super) fn error_panel<'a>(
     axis: Axis,
     judgements: impl Iterator<Item = &'a Judgement>,
@@ -69,7 +69,7 @@ pub(super) fn error_panel<'a>(
     panel
 }
 
-/// What a caption says of errors outside of the range that an [`error_panel`] shows.
+/// Says for a caption where errors outside of the range of an [`error_panel`] are drawn.
 pub(super) fn errors_at_edges() -> String {
     format!(
         "errors below {} stand at the lower edge, those above {} at the upper one",
@@ -78,12 +78,12 @@ pub(super) fn errors_at_edges() -> String {
     )
 }
 
-/// Writes what the errors of a panel have in common above them.
+/// Writes above the errors of a panel what they have in common.
 pub(super) fn name_errors(panel: &mut Panel, words: &str) {
     panel.key(Sample::Heading, words);
 }
 
-/// The marks of the codes of `judgements`, and the rings around their points.
+/// Returns the key: the marks of the codes of `judgements`, and the rings that occur around their points.
 pub(super) fn key(judgements: &[Judgement]) -> Vec<(Sample, String)> {
     let codes = present(judgements).into_iter();
     let codes = codes.map(|code| (Mark::of(&code), code.label()));
@@ -98,13 +98,13 @@ pub(super) fn key(judgements: &[Judgement]) -> Vec<(Sample, String)> {
         .collect()
 }
 
-/// The rings of verdicts.
+/// The verdicts that have a ring, with their words in the key.
 const RINGS: [(Verdict, Mark, &str); 2] = [
     (Verdict::Inconclusive, INCONCLUSIVE, "inconclusive"),
     (Verdict::Differs, DIFFERS, "differs"),
 ];
 
-/// A sentence on the codes that [`loads`] leaves out, if there are any.
+/// Returns a sentence on the codes that [`loads`] leaves out, or nothing if there are none.
 pub(super) fn left_out(judgements: &[Judgement]) -> String {
     let repeating = present(judgements).into_iter();
     let repeating = repeating.filter(|code| code.repeats_another());
@@ -123,7 +123,7 @@ pub(super) fn name(panel: &mut Panel, code: &Code) {
     panel.key(Sample::Mark(Mark::of(code)), &code.label());
 }
 
-/// The runs of `code` as marks, joined by a line for the native DEM.
+/// Draws the runs of `code` as marks, joined by a line for the native DEM.
 pub(super) fn runs(panel: &mut Panel, stroke: Stroke, code: &Code, points: &[(f64, Option<f64>)]) {
     let points = points.iter().copied();
     if code.is_native() {
@@ -132,7 +132,7 @@ pub(super) fn runs(panel: &mut Panel, stroke: Stroke, code: &Code, points: &[(f6
     panel.marks(Mark::of(code), points.filter_map(|(x, y)| Some((x, y?))));
 }
 
-/// A mark at the `point` of every judgement, and a ring around it where there is no agreement.
+/// Draws a mark at the `point` of every judgement, and a ring around it if that is inconclusive or differs.
 pub(super) fn mark(
     panel: &mut Panel,
     judgements: &[Judgement],

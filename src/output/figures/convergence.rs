@@ -22,13 +22,13 @@ const PUBLISHED_SPEEDS: &str = "figS3b";
 /// Distance of two marks that stand side by side for the same wall speed, as a part of the panel.
 const ABREAST: f64 = 0.022;
 
-/// A setting, and the force shown of the run with it.
+/// A setting, and the force that is shown of the run with it.
 type Run = (f64, Option<f64>);
 type Force = fn(&ConvergencePoint) -> Option<f64>;
 
-/// Distance of peak and slip onset from the limit over the wall speed, and their change with the time step.
+/// Draws the distance of peak and slip onset from the limit over the wall speed, and their change with the time step.
 pub(super) fn convergence(study: &Convergence, published: Option<&Published>) -> Figure {
-    // Labelled with the unit of the paper, made in that of the program.
+    // The points are labelled in the unit of the paper, but were made in that of the program.
     let place = |own: &PublishedForce| {
         let speed = own.labelled[0] / own.stack.stiffness.sqrt();
         Some((speed, (own.value.value / own.limit? - 1.0).abs()))
@@ -80,7 +80,8 @@ fn shown_codes(study: &Convergence) -> Vec<Code> {
     Code::distinct(study.time_steps.iter().map(|point| &point.code))
 }
 
-/// The distance of a force from the limit over the wall speed, the codes side by side: they would hide each other.
+/// Draws the distance of a force from the limit over the wall speed. The codes stand side by side, since they would
+/// hide each other.
 fn speeds(study: &Convergence, symbol: &str, lowest: Point, excess: Force) -> Panel {
     let range = (lowest.1, EXCESS);
     let mut panel = Panel::new(
@@ -113,7 +114,7 @@ fn speeds(study: &Convergence, symbol: &str, lowest: Point, excess: Force) -> Pa
     panel
 }
 
-/// Places of marks side by side: 0 for the first, which a line joins, then 1, −1, 2, −2.
+/// Returns the place of a mark beside others: 0 for the first, which a line joins, then 1, −1, 2, −2.
 fn place_abreast(index: usize) -> f64 {
     let distance = index.div_ceil(2) as f64;
     if index % 2 == 1 { distance } else { -distance }
@@ -134,8 +135,8 @@ fn steps(study: &Convergence, symbol: &str, force: Force) -> Panel {
     panel
 }
 
-/// The change of a force of `code` with the time step, relative to the force at the paper's time step, which is left
-/// out.
+/// Returns the change of a force of `code` with the time step, relative to the force at the paper's time step, which
+/// is left out.
 fn changes(points: &[ConvergencePoint], code: &Code, force: Force) -> Vec<Run> {
     let own = || points.iter().filter(|point| point.code == *code);
     let mut paper = own().filter(|point| point.time_step == PAPER_TIME_STEP);
@@ -152,7 +153,7 @@ fn changes(points: &[ConvergencePoint], code: &Code, force: Force) -> Vec<Run> {
         .collect()
 }
 
-/// A setting of the paper, as a vertical line.
+/// Draws a setting of the paper as a vertical line.
 fn setting(panel: &mut Panel, value: f64, (low, high): Point) {
     panel.line(GUIDE, [(value, low), (value, high)]);
     panel.words(

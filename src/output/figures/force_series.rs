@@ -17,7 +17,7 @@ const BELOW: f64 = 12.0;
 /// The same above the limit.
 const ABOVE: f64 = 3.0;
 
-/// The wall force over time, as a whole and around its peak.
+/// Draws the wall force over time, as a whole and around its peak.
 pub(super) fn force_series(series: &ForceSeries, published: Option<&Published>) -> Figure {
     let panels = [whole(series, published), around_the_peak(series)];
     let stack = force_series_stack();
@@ -105,7 +105,7 @@ fn highest(rows: &[Point]) -> Point {
     highest.copied().unwrap_or((0.0, 0.0))
 }
 
-/// The largest distance in time from the peak among the rows around it that are above `low`, at least 1.
+/// Returns the largest distance in time from the peak among the rows around it that are above `low`, at least 1.
 fn reach(rows: &[Point], peak: Point, low: f64) -> f64 {
     let (before, after) = rows.split_at(rows.partition_point(|row| row.0 < peak.0));
     let above = |row: &&Point| row.1 > low;
@@ -114,7 +114,7 @@ fn reach(rows: &[Point], peak: Point, low: f64) -> f64 {
     rows.map(|row| (row.0 - peak.0).abs()).fold(1.0, f64::max)
 }
 
-/// The point at which the wall force first reaches `force`, by interpolation between two rows.
+/// Returns the point at which the wall force first reaches `force`, by interpolation between two rows.
 fn first_reaching(rows: &[Point], force: f64) -> Option<Point> {
     let mut pairs = rows.windows(2);
     let pair = pairs.find(|pair| (pair[0].1..pair[1].1).contains(&force))?;

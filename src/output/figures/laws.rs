@@ -14,12 +14,13 @@ use crate::study::yield_force::{Judgement, LawCurve, law_curves};
 /// The stiffnesses of the two panels.
 const STIFFNESSES: [f64; 2] = [1e2, 1e4];
 
-/// The figure of the page on contact laws as SVG.
+/// Draws the figure of the page on contact laws as SVG.
 pub(crate) fn laws_svg(judgements: &[Judgement]) -> String {
     laws_figure(judgements).svg()
 }
 
-/// Slip onset of every convention over the floor friction, by theory and by the codes, and the largest force.
+/// Draws the slip onset of every convention over the floor friction, by theory and by the codes, and the largest
+/// force by theory.
 pub(crate) fn laws_figure(judgements: &[Judgement]) -> Figure {
     let mut codes: Vec<(Code, ContactConvention)> = Vec::new();
     for row in judgements {

@@ -51,7 +51,7 @@ pub(crate) struct Figure {
 }
 
 impl Figure {
-    /// A figure in its layouts for wide and for narrow pages.
+    /// Creates a figure from its layouts for wide and for narrow pages.
     fn new(name: &'static str, caption: impl Into<String>, [wide, narrow]: [Drawing; 2]) -> Self {
         Self {
             name,
@@ -65,24 +65,24 @@ impl Figure {
         Self::new(name, caption, [sheet.wide(), sheet.narrow()])
     }
 
-    /// The figure as SVG.
+    /// Returns the figure as SVG.
     pub fn svg(&self) -> String {
         self.wide.svg()
     }
 
-    /// The same figure with one panel below the other, for screens on which the letters of [`Self::svg`] would be too
-    /// small: below some 600 pixels.
+    /// Returns the figure as SVG with one panel below the other, for screens on which the letters of [`Self::svg`]
+    /// would be too small: below some 600 pixels.
     pub fn narrow_svg(&self) -> String {
         self.narrow.svg()
     }
 
-    /// The figure as a page of its own size, with its letters as outlines: the same bytes on every machine.
+    /// Returns the figure as a PDF page of its own size, with its letters as outlines: the same bytes on every machine.
     pub fn pdf(&self) -> Vec<u8> {
         self.wide.pdf()
     }
 }
 
-/// All figures: first those of the paper, then further ones.
+/// Draws all figures: first those of the paper, then further ones.
 pub(crate) fn figures(reproduction: &Reproduction) -> Vec<Figure> {
     let draw: [fn(&Reproduction) -> Figure; 8] = [
         |own| yield_curves::yield_curves(&own.yield_curves, &own.curves, own.published.as_ref()),
@@ -104,12 +104,12 @@ fn stiffness_axis() -> Axis {
     Axis::log("stiffness kₙ r/(m g)", (6e0, 2e6))
 }
 
-/// A stiffness in words, as a power of ten.
+/// Formats a stiffness in words, as a power of ten.
 fn stiffness_words(stiffness: f64) -> String {
     format!("kₙ r/(m g) = {}", axis::power_of_ten(stiffness))
 }
 
-/// A floor friction in words; the critical one by its name.
+/// Formats a floor friction in words; the critical one by its name.
 fn friction_words(mu: f64) -> String {
     if mu == CRITICAL_FRICTION {
         "μ = μ_{c}".to_owned()

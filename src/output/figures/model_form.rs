@@ -1,4 +1,4 @@
-//! What torque arms and turning springs of the codes do to the yield force.
+//! The effect of the codes' torque arms and turning springs on the yield force.
 
 use super::Figure;
 use super::axis::{Axis, power_of_ten};
@@ -11,10 +11,10 @@ use crate::model::{CRITICAL_FRICTION, PAPER_STIFFNESS_RATIO};
 use crate::paper::reproduction::Curves;
 use crate::study::yield_force::{Judgement, PAPER_STIFFNESSES};
 
-/// Panels with curves above this value, in percent, have the finer axis.
+/// Panels whose curves stay above this value, in percent, have the finer axis.
 const SMALL: f64 = -2.0;
 
-/// Difference to the yield force under the paper's convention, by theory and by the codes: a panel for every limit.
+/// Draws the difference to the yield force under the paper's convention, by theory and by the codes, for each limit.
 pub(super) fn model_form(judgements: &[Judgement], curves: &Curves) -> Figure {
     let groups = &curves.codes_by_limit;
     let panels: Vec<Panel> = groups
@@ -42,7 +42,7 @@ pub(super) fn model_form(judgements: &[Judgement], curves: &Curves) -> Figure {
     Figure::of_sheet("model-form", caption, &Sheet::of_halves(panels))
 }
 
-/// The arm coefficients of pair and floor in words.
+/// Formats the torque arm coefficients of pair and floor.
 fn arms(code: &SettledCode) -> [String; 2] {
     let arms = code.convention().arms;
     [arms.pair.torque, arms.floor.torque].map(|arm| {
@@ -103,8 +103,8 @@ fn panel(y: Axis, codes: &[Code], judgements: &[Judgement], curves: &Curves) -> 
     panel
 }
 
-/// The measured difference in percent: the error of a row is relative to its own limit + 3, which differs from
-/// the paper's by the model form.
+/// Returns the measured difference in percent. The error of a row is relative to its own limit + 3, which differs
+/// from the paper's by the model form.
 fn measured(row: &Judgement) -> Option<(f64, f64)> {
     let (error, model_form) = row.error().zip(row.model_form())?;
     let ratio = (1.0 + error) * (1.0 + model_form);

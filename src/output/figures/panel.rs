@@ -19,7 +19,7 @@ pub(super) struct Panel {
     areas: Vec<(&'static str, Vec<Point>)>,
     lines: Vec<(Stroke, Vec<Point>)>,
     marks: Vec<(Mark, Point)>,
-    /// With their places in parts of the panel, from its upper left corner.
+    /// Words, their places in parts of the panel from its upper left corner.
     words: Vec<(String, Point, Anchor, Setting)>,
     key: Vec<(Sample, String)>,
     key_place: Point,
@@ -30,7 +30,7 @@ pub(super) struct Panel {
 pub(super) enum Sample {
     Line(Stroke),
     Mark(Mark),
-    /// Nothing: the words are a heading.
+    /// No sample: the words are a heading.
     Heading,
 }
 
@@ -48,7 +48,7 @@ impl Panel {
         }
     }
 
-    /// A line through `points`, interrupted at missing values.
+    /// Adds a line through `points`, interrupted at missing values and, on a logarithmic axis, at values up to 0.
     pub fn line<Y: Into<Option<f64>>>(
         &mut self,
         stroke: Stroke,
@@ -65,37 +65,37 @@ impl Panel {
         self.lines.retain(|(_, points)| points.len() > 1);
     }
 
-    /// A coloured area with its corners at `points`, behind everything else and limited to the axes.
+    /// Adds a coloured area with its corners at `points`, behind everything else and limited to the axes.
     pub fn area(&mut self, colour: &'static str, points: impl IntoIterator<Item = Point>) {
         let points = points.into_iter();
         let points = points.map(|(x, y)| (self.x.clamp(x), self.y.clamp(y)));
         self.areas.push((colour, points.collect()));
     }
 
-    /// Words at the right end of the line at `y`, a little above it.
+    /// Adds words at the right end of the line at `y`, a little above it.
     pub fn words_on(&mut self, text: &str, y: f64) {
         let above = self.y.at(self.y.part(y) + 0.015);
         self.words(text, (self.x.at(0.98), above), Anchor::End);
     }
 
-    /// A horizontal line across the panel.
+    /// Adds a horizontal line across the panel.
     pub fn level(&mut self, stroke: Stroke, y: f64) {
         let (from, to) = self.x.range;
         self.line(stroke, [(from, y), (to, y)]);
     }
 
-    /// A vertical line across the panel.
+    /// Adds a vertical line across the panel.
     pub fn upright(&mut self, stroke: Stroke, x: f64) {
         let (from, to) = self.y.range;
         self.line(stroke, [(x, from), (x, to)]);
     }
 
-    /// `x` moved to the right by a `part` of the panel.
+    /// Returns `x` moved to the right by a `part` of the panel.
     pub fn beside(&self, x: f64, part: f64) -> f64 {
         self.x.at(self.x.part(x) + part)
     }
 
-    /// A band of a `part` of the panel's width from its lower to its upper edge, with its middle at `x`.
+    /// Adds a vertical band across the panel, as wide as a `part` of it, with its middle at `x`.
     pub fn band(&mut self, colour: &'static str, x: f64, part: f64) {
         let (low, high) = self.y.range;
         let [left, right] = [-0.5, 0.5].map(|side| self.beside(x, side * part));
@@ -105,7 +105,7 @@ impl Panel {
         );
     }
 
-    /// A mark at each of `points`; those above or below the axis are drawn at its end.
+    /// Adds a mark at each of `points`. Those above or below the axis are drawn at its end, those beside it not at all.
     pub fn marks(&mut self, mark: Mark, points: impl IntoIterator<Item = Point>) {
         let points = points.into_iter();
         let points = points.filter(|point| self.x.contains(point.0) && !point.1.is_nan());
@@ -113,12 +113,12 @@ impl Panel {
             .extend(points.map(|(x, y)| (mark, (x, self.y.clamp(y)))));
     }
 
-    /// Words at `place`, in units of the axes.
+    /// Adds words at `place`, in units of the axes.
     pub fn words(&mut self, text: impl Into<String>, place: Point, anchor: Anchor) {
         self.set(text, place, anchor, Setting::Normal);
     }
 
-    /// Words set upwards, with their middle at `place` in units of the axes.
+    /// Adds words set upwards, with their middle at `place` in units of the axes.
     pub fn words_upwards(&mut self, text: impl Into<String>, place: Point) {
         self.set(text, place, Anchor::Middle, Setting::Upwards);
     }
@@ -179,7 +179,7 @@ struct View<'a> {
 }
 
 impl<'a> View<'a> {
-    /// The panel with its margins at `corner`, of this `size` in pixels.
+    /// Places the panel with its margins at `corner`, of this `size` in pixels.
     fn new(panel: &'a Panel, corner: Place, size: (f64, f64)) -> Self {
         Self {
             panel,
@@ -216,7 +216,7 @@ impl<'a> View<'a> {
         self.key(drawing);
     }
 
-    /// Frame, ticks, labels, and the letter that names the panel.
+    /// Draws frame, ticks, labels, and the letter that names the panel.
     fn axes(&self, drawing: &mut Drawing, letter: Option<char>) {
         let ([left, top], [right, bottom]) = (self.at((0.0, 0.0)), self.at((1.0, 1.0)));
         let frame = rectangle([left, top], [right, bottom]);
@@ -252,7 +252,7 @@ impl<'a> View<'a> {
         }
     }
 
-    /// The place in parts of the panel, from its upper left corner.
+    /// Converts a place in parts of the panel, from its upper left corner, to pixels.
     fn at(&self, (right, down): Point) -> Place {
         [
             self.left + right * self.width,
@@ -297,7 +297,7 @@ fn draw_mark(drawing: &mut Drawing, mark: Mark, [x, y]: Place) {
     }
 }
 
-/// The parts of the line through `points` that are between the corners of a rectangle.
+/// Returns the parts of the line through `points` that are between the corners of a rectangle.
 fn visible_parts(points: &[Place], corners: [Place; 2]) -> Vec<Vec<Place>> {
     let mut parts: Vec<Vec<Place>> = Vec::new();
     for pair in points.windows(2) {
@@ -312,7 +312,7 @@ fn visible_parts(points: &[Place], corners: [Place; 2]) -> Vec<Vec<Place>> {
     parts
 }
 
-/// The part of a straight line that is between the corners, by Liang and Barsky: each side of the rectangle
+/// Returns the part of a straight line that is between the corners, by Liang and Barsky: each side of the rectangle
 /// bounds the share of the line at which it enters, or at which it leaves.
 fn visible_part([from, to]: [Place; 2], corners: [Place; 2]) -> Option<[Place; 2]> {
     let (mut enters, mut leaves) = (0.0_f64, 1.0_f64);

@@ -11,7 +11,7 @@ use crate::study::cost::{Scaling, ScalingRow, StackCost};
 /// Distance of a bar from its words, in units of the distance between bars.
 const ABOVE: f64 = 0.27;
 
-/// Time per step and case of each of `costs` as bars, and the speed-up of native lanes over the number of cases.
+/// Draws time per step and case of each of `costs` as bars, and the speed-up of native lanes over the cases.
 pub(crate) fn performance_svg(costs: &[StackCost], scaling: &Scaling) -> String {
     let panels = [bars(costs), speedups(&scaling.cases)];
     Sheet::of_halves(panels).wide().svg()

@@ -1,4 +1,4 @@
-//! The effect of the preparation on the force between the bottom cylinders and on the yield force.
+//! The effect of the preparation on the yield force and on the force between the bottom cylinders.
 
 use super::Figure;
 use super::axis::Axis;
@@ -12,7 +12,7 @@ use crate::study::preparation::{PreparationRow, PreparationStudy};
 /// Width of the line of a limit, in m g.
 const LINE_WIDTH: f64 = 2e-3;
 
-/// c(A) and F(A) of every code with a deck for side walls, at the first stack of the study.
+/// Draws c(A) and F(A) of every code with a deck for side walls, at the stack of `study`.
 pub(super) fn preparation(study: &PreparationStudy) -> Figure {
     let epsilon = study.stack.epsilon();
     let axis = || Axis::around("push A/(ε r)", (-0.15, 5.3));
@@ -66,7 +66,8 @@ pub(super) fn preparation(study: &PreparationStudy) -> Figure {
     Figure::of_sheet("preparation", caption, &sheet)
 }
 
-/// The exact limits after a gravity ramp under the conventions of the codes, each with the codes whose lines fall together.
+/// Returns the exact limits after a gravity ramp under the codes' conventions, each with the codes whose lines
+/// coincide.
 fn limits(study: &PreparationStudy) -> Vec<(f64, Vec<Code>)> {
     let mut limits: Vec<(f64, Vec<Code>)> = Vec::new();
     for code in Code::distinct(study.rows.iter().map(|row| &row.code)) {

@@ -38,7 +38,7 @@ enum Ending {
 /// An ending, and whether contact 2–3 closes before it.
 type Region = (Ending, bool);
 
-/// The maps with the verdicts of the native DEM.
+/// Draws the maps with the verdicts of the native DEM.
 pub(super) fn regimes(maps: &[RegimeMap], survey: &Survey) -> super::Figure {
     let caption = "Not in the paper: how a stack ends, over the floor friction $\\mu$ and (a) the stiffness $k_n r/(mg)$, \
                    (b) the friction $\\mu_d$ between cylinders, (c) the stiffness ratio $\\kappa = k_n/k_t$; the others are 100, \
@@ -48,7 +48,7 @@ pub(super) fn regimes(maps: &[RegimeMap], survey: &Survey) -> super::Figure {
     super::Figure::of_sheet("regimes", caption, &sheet(maps, survey))
 }
 
-/// The figure as SVG.
+/// Draws the figure as SVG.
 pub(crate) fn regimes_svg(maps: &[RegimeMap], survey: &Survey) -> String {
     sheet(maps, survey).wide().svg()
 }
@@ -58,7 +58,7 @@ fn sheet(maps: &[RegimeMap], survey: &Survey) -> Sheet {
     Sheet::of_halves(panels).with_key(key(maps))
 }
 
-/// What marks and lines mean, and the parameters that are the same in all of a map.
+/// Returns the key: what marks and lines mean, and the parameters that are the same in all of a map.
 fn key(maps: &[RegimeMap]) -> Vec<(Sample, String)> {
     let entries = [
         (
@@ -157,7 +157,7 @@ impl Strip {
 }
 
 impl Band {
-    /// Height in its middle, in units of μ.
+    /// Returns its height in its middle, in units of μ.
     fn height(&self) -> f64 {
         self.upper[SAMPLES / 2] - self.lower[SAMPLES / 2]
     }
@@ -168,7 +168,7 @@ impl Band {
     }
 
     fn outline(&self, strip: &Strip) -> impl Iterator<Item = Point> {
-        // It overlaps with the next strip, which is drawn over it: between adjoining edges a gap would show.
+        // The band overlaps the next strip, which is drawn over it: between adjoining edges a gap would show.
         let end = strip.values[SAMPLES - 1] * OVERLAP;
         let values: Vec<f64> = strip.values.iter().copied().chain([end]).collect();
         let edge = |heights: &[f64]| -> Vec<Point> {
@@ -191,7 +191,7 @@ fn strips(map: &RegimeMap) -> Vec<Strip> {
 }
 
 fn strip(map: &RegimeMap, (from, to): (f64, f64)) -> Strip {
-    // Not on the lines themselves, where the order of the events is undecided.
+    // The strip ends before the lines themselves, where the order of the events is undecided.
     let part = RegimeMap {
         range: (from * (1.0 + 1e-9), to * (1.0 - 1e-9)),
         ..*map
@@ -225,7 +225,7 @@ fn strip(map: &RegimeMap, (from, to): (f64, f64)) -> Strip {
     }
 }
 
-/// The floor frictions of the boundaries at a value on the axis, lowest first, with their strokes.
+/// Returns the floor frictions of the boundaries at a value on the axis, lowest first, with their strokes.
 fn levels(map: &RegimeMap, value: f64) -> Vec<(f64, Stroke)> {
     let stack = map.axis.set(&map.base, value);
     let path = map.path(value);
@@ -255,7 +255,7 @@ fn region(map: &RegimeMap, value: f64, friction: f64) -> Option<Region> {
     Some((ending, shares))
 }
 
-/// Colour and words of a region.
+/// Returns colour and words of a region.
 fn look((ending, shares): Region) -> (&'static str, Vec<&'static str>) {
     let (colours, words) = match ending {
         Ending::Falls => (FALLS, vec!["falls under own weight"]),
@@ -291,8 +291,8 @@ fn label(panel: &mut Panel, map: &RegimeMap, strips: &[Strip]) {
     label_narrow(panel, map, strips);
 }
 
-/// Names upwards each region that fills a narrow strip from the lower to the upper edge: its name elsewhere does not
-/// tell what goes on there.
+/// Writes upwards the name of each region that fills a narrow strip from the lower to the upper edge: its name
+/// elsewhere does not tell what goes on there.
 fn label_narrow(panel: &mut Panel, map: &RegimeMap, strips: &[Strip]) {
     let whole = map.width(map.range);
     for strip in strips {
@@ -308,7 +308,7 @@ fn label_narrow(panel: &mut Panel, map: &RegimeMap, strips: &[Strip]) {
     }
 }
 
-/// The part of the axis around the strip `index` that `region` spans without a gap.
+/// Returns the part of the axis around the strip `index` that `region` spans without a gap.
 fn span(strips: &[Strip], index: usize, region: Region) -> (f64, f64) {
     let has = |strip: &&Strip| strip.visible(region).is_some();
     let before = strips[..index].iter().rev().take_while(has).last();
@@ -319,7 +319,8 @@ fn span(strips: &[Strip], index: usize, region: Region) -> (f64, f64) {
     )
 }
 
-/// Where in a `span` the words of `region` have the room that they need, or most of it, as near to the middle as may be.
+/// Returns the place in `span` where the words of `region` have the room that they need, or most of it, as near to
+/// the middle as possible.
 fn roomiest(map: &RegimeMap, strips: &[Strip], region: Region, span: (f64, f64)) -> f64 {
     let ruler = ruler(map);
     let [from, to] = [span.0, span.1].map(|value| ruler.part(value));
@@ -343,7 +344,7 @@ fn roomiest(map: &RegimeMap, strips: &[Strip], region: Region, span: (f64, f64))
     ruler.at(best.unwrap_or(middle))
 }
 
-/// The lower and the upper edge of `region` at `x`.
+/// Returns the lower and the upper edge of `region` at `x`.
 fn edges_at(strips: &[Strip], region: Region, x: f64) -> Option<[f64; 2]> {
     let strip = strips.iter().find(|strip| x <= strip.values[SAMPLES - 1])?;
     let band = strip.visible(region)?;
@@ -361,7 +362,7 @@ fn name(panel: &mut Panel, region: Region, (x, y): Point) {
     }
 }
 
-/// A dot where native runs agree on both sides, a cross where they do not.
+/// Draws a dot where native runs agree on both sides, a cross where they do not.
 fn mark(panel: &mut Panel, map: &RegimeMap, survey: &Survey) {
     let confirmations = survey.confirmations.iter();
     let of_map = confirmations.filter(|own| own.point.map == map.axis);
@@ -378,7 +379,7 @@ fn mark(panel: &mut Panel, map: &RegimeMap, survey: &Survey) {
     }
 }
 
-/// The examined points on the dashed lines, and whether both neighbours agree with theory.
+/// Returns the examined points on the dashed lines, and whether both neighbours agree with theory.
 fn released_places(map: &RegimeMap, survey: &Survey) -> impl Iterator<Item = (Point, bool)> {
     survey.examinations.windows(2).filter_map(|pair| {
         let [below, above] = [&pair[0], &pair[1]];

@@ -13,7 +13,7 @@ use crate::paper::reproduction::{
 };
 use crate::study::yield_force::Judgement;
 
-/// Yield force over the stiffness with the fitted exponents, and the errors of the codes, a panel for each friction.
+/// Draws the yield force over the stiffness with the fitted exponents, and the errors of the codes at each friction.
 pub(super) fn scaling(reproduction: &Reproduction) -> Figure {
     let (judgements, laws) = (&reproduction.scaling, &reproduction.laws);
     let published = reproduction.published.as_ref();
@@ -97,7 +97,8 @@ fn forces(
     panel
 }
 
-/// The frictions of published points that no curve has, each with stiffness and F + 3 of the exact limit, from the softest on.
+/// Returns the frictions of published points that no curve has, each with its points of stiffness and F + 3 of the
+/// exact limit, softest first.
 fn other_frictions(published: Option<&Published>) -> Vec<(f64, Vec<Point>)> {
     let own = published.into_iter();
     let own = own.flat_map(|published| published.of_figure(PUBLISHED_FIGURE));
@@ -119,7 +120,7 @@ fn other_frictions(published: Option<&Published>) -> Vec<(f64, Vec<Point>)> {
     found
 }
 
-/// The published figure.
+/// Name of the published figure.
 const PUBLISHED_FIGURE: &str = "fig2b";
 
 /// Places of the names of the curves, above their right ends.
@@ -129,7 +130,7 @@ const CURVE_ENDS: [(f64, f64); 3] = [(1.3e6, 42.0), (3e5, 2.2e3), (8e4, 5e4)];
 const HERTZ_WORDS: &str = "μ = μ_{c}, Hertz";
 const HERTZ_END: (f64, f64) = (1.35e6, 85.0);
 
-/// The table of the fitted exponents.
+/// Returns the table of the fitted exponents.
 fn fits<'a>(exponents: impl Iterator<Item = &'a Exponent>) -> Vec<Vec<String>> {
     let heads = ["exponent β", "native", "exact limit", "kₙ → ∞"];
     let own = exponents.filter(|own| own.code.is_native());
@@ -149,7 +150,7 @@ fn fits<'a>(exponents: impl Iterator<Item = &'a Exponent>) -> Vec<Vec<String>> {
     [heads].into_iter().chain(rows).collect()
 }
 
-/// The decimal place of the first digit of `uncertainty`.
+/// Returns the decimal place of the first digit of `uncertainty`.
 fn decimals(uncertainty: f64) -> usize {
     let place = -libm::floor(libm::log10(uncertainty));
     if place.is_finite() {
@@ -159,7 +160,7 @@ fn decimals(uncertainty: f64) -> usize {
     }
 }
 
-/// `value` with the uncertainty of its last digit in parentheses, rounded up.
+/// Formats `value` with the uncertainty of its last digit in parentheses, rounded up.
 fn with_uncertainty(value: f64, uncertainty: f64) -> String {
     let decimals = decimals(uncertainty);
     let digit = libm::ceil(uncertainty * libm::exp10(decimals as f64));

@@ -1,4 +1,4 @@
-//! Panels in rows, with what they share below them: a layout for wide pages, and one for narrow ones.
+//! Panels in rows with a shared key and table, in a layout for wide pages and one for narrow ones.
 
 use super::drawing::{Anchor, Drawing, Place, text_width};
 use super::panel::{Panel, Sample, draw_entry, draw_panel};
@@ -23,7 +23,7 @@ pub(super) struct Sheet {
     columns: usize,
     size: (f64, f64),
     key: Vec<(Sample, String)>,
-    /// Its rows, the first one the heads of the columns.
+    /// The rows of the table, of which the first one has the column headings.
     table: Vec<Vec<String>>,
 }
 
@@ -38,34 +38,34 @@ impl Sheet {
         }
     }
 
-    /// Panels two side by side.
+    /// Arranges panels two side by side.
     pub fn of_halves(panels: impl Into<Vec<Panel>>) -> Self {
         Self::new(panels, 2, HALF_PAGE)
     }
 
-    /// Panels three side by side.
+    /// Arranges panels three side by side.
     pub fn of_thirds(panels: impl Into<Vec<Panel>>) -> Self {
         Self::new(panels, 3, THIRD_OF_PAGE)
     }
 
-    /// The same with a key, in the free place of the last row if there is one, else below all panels.
+    /// Adds a key, in the free place of the last row if there is one, else below all panels.
     pub fn with_key(mut self, key: impl IntoIterator<Item = (Sample, String)>) -> Self {
         self.key.extend(key);
         self
     }
 
-    /// The same with a table below everything.
+    /// Adds a table below everything.
     pub fn with_table(mut self, rows: Vec<Vec<String>>) -> Self {
         self.table = rows;
         self
     }
 
-    /// Panels side by side.
+    /// Draws the panels side by side.
     pub fn wide(&self) -> Drawing {
         self.drawn(self.columns, self.size.0)
     }
 
-    /// One panel below the other, for screens on which the letters of the wide layout would be too small.
+    /// Draws one panel below the other, for screens on which the letters of the wide layout would be too small.
     pub fn narrow(&self) -> Drawing {
         self.drawn(1, NARROW)
     }
@@ -131,7 +131,7 @@ impl<'a> KeyBlock<'a> {
         }
     }
 
-    /// With the distance from what stands above it.
+    /// Returns its height, with the distance from what stands above it.
     fn height(&self) -> f64 {
         match self.rows {
             0 => 0.0,
@@ -149,7 +149,7 @@ impl<'a> KeyBlock<'a> {
     }
 }
 
-/// A table: its first column set from the left, the others from the right, a line below the heads.
+/// A table with a line below its headings. Its first column is aligned to the left, the others to the right.
 struct TableBlock<'a> {
     rows: &'a [Vec<String>],
     widths: Vec<f64>,
@@ -169,7 +169,7 @@ impl<'a> TableBlock<'a> {
         }
     }
 
-    /// With the distances from what stands above and below it.
+    /// Returns its height, with the distances from what stands above and below it.
     fn height(&self) -> f64 {
         match self.rows.len() {
             0 => 0.0,

@@ -11,7 +11,7 @@ use crate::model::{PAPER_BODIES, PAPER_CYLINDER_FRICTION, PAPER_STIFFNESS_RATIO}
 use crate::paper::reproduction::{BodiesCurve, SPHERES_STIFFNESSES, Spheres};
 use crate::theory::Event;
 
-/// Load of each bottom body over the floor friction, both by the measure in which rigid stacks do not differ.
+/// Draws the load of each bottom body over the floor friction, both in units in which rigid stacks do not differ.
 pub(crate) fn spheres_figure(spheres: &Spheres) -> Figure {
     let [soft, stiff] = SPHERES_STIFFNESSES;
     let mut panels = SPHERES_STIFFNESSES.map(|stiffness| panel(spheres, stiffness));

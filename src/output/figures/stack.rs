@@ -14,12 +14,12 @@ use crate::output::friction;
 use crate::paper::reproduction::Snapshots;
 use crate::series::Frames;
 
-/// The picture of one run as SVG: its [`representative_panels`] with a caption on code and stack.
+/// Draws one run as SVG: its [`representative_panels`] with a caption on code and stack.
 pub fn run_svg(code: &str, case: &Case, frames: &Frames) -> String {
     drawn(code, case, frames).svg()
 }
 
-/// The same picture as PDF.
+/// Draws the same picture as PDF.
 pub fn run_pdf(code: &str, case: &Case, frames: &Frames) -> Vec<u8> {
     drawn(code, case, frames).pdf()
 }
@@ -72,7 +72,7 @@ fn parameters(stack: &Stack) -> String {
     )
 }
 
-/// The stack of the report at rest, at yield and in collapse.
+/// Draws the stack of the report at rest, at yield and in collapse.
 pub(super) fn stack(snapshots: &Snapshots) -> Figure {
     let panels = representative_panels(&snapshots.frames);
     let stack = &snapshots.case.stack;

@@ -36,7 +36,7 @@ pub(super) const KEY_COLUMNS: f64 = 18.0;
 
 /// Near-black for text and lines.
 pub(super) const INK: &str = "#1a1a1a";
-/// For guides to the eye.
+/// Colour of guides to the eye.
 pub(super) const GREY: &str = "#8c8c8c";
 /// Colours that stay apart for the colour-blind (Okabe and Ito), darkest first.
 const BLUE: &str = "#0072b2";
@@ -45,23 +45,22 @@ const PURPLE: &str = "#9c4f86";
 const GREEN: &str = "#007d5c";
 const ORANGE: &str = "#c98500";
 
-/// For what is not as it should be.
+/// Colour of what is not as it should be.
 const RED: &str = "#c00000";
-/// Behind marks that stand side by side for the same value.
+/// Colour behind marks that stand side by side for the same value.
 pub(super) const TOGETHER: &str = "#f1f1ec";
 
 /// A guide to the eye.
 pub(super) const THIN: Stroke = Stroke::new(INK, 0.8, &[]);
-/// A level or a place.
+/// A guide at a level or a place.
 pub(super) const GUIDE: Stroke = Stroke::new(GREY, 0.8, &[3.0, 3.0]);
 /// The exact limit.
 pub(super) const EXACT: Stroke = Stroke::new(INK, 1.5, &[]);
-/// The exact limit of runs that begin otherwise than those beside it.
+/// The exact limit after a gravity ramp, beside runs that begin otherwise.
 pub(super) const EXACT_AFTER_RAMP: Stroke = Stroke::new(INK, 1.2, &[9.0, 3.0]);
-/// The same with Hertz contacts.
+/// The exact limit with Hertz contacts.
 pub(super) const HERTZ: Stroke = Stroke::new(INK, 1.2, &[6.0, 2.5, 1.5, 2.5]);
-/// The other theories.
-/// Wide and light, to be seen below the others.
+/// The other theories. That of rigid bodies is wide and light where other curves lie on it.
 pub(super) const RIGID_BELOW: Stroke = Stroke::new("#e3bfd6", 6.0, &[]);
 pub(super) const RIGID: Stroke = Stroke::new(PURPLE, 1.8, &[2.0, 2.5]);
 pub(super) const PERTURBATION: Stroke = Stroke::new(VERMILION, 1.5, &[7.0, 3.5]);
@@ -77,7 +76,7 @@ pub(super) const STIFFNESS_STROKES: [Stroke; 3] = [
     Stroke::new(PURPLE, 1.8, &[2.0, 2.5]),
 ];
 
-/// Curves of two, three, four and five bodies on the floor.
+/// The curves of two, three, four and five bodies on the floor.
 pub(super) const BODIES_STROKES: [Stroke; 4] = [
     EXACT,
     Stroke::new(BLUE, 1.5, &[9.0, 2.5]),
@@ -85,10 +84,11 @@ pub(super) const BODIES_STROKES: [Stroke; 4] = [
     Stroke::new(GREEN, 1.5, &[8.0, 2.5, 1.5, 2.5]),
 ];
 
-/// The boundaries in a regime map: another event comes first beyond it, or the same one ends otherwise.
+/// The boundaries in a regime map: beyond the first, another event comes first; beyond the second, the same event has
+/// another end.
 pub(super) const BOUNDARY: Stroke = Stroke::new(INK, 1.2, &[]);
 pub(super) const BOUNDARY_OF_ENDINGS: Stroke = Stroke::new(INK, 1.2, &[8.0, 4.0]);
-/// Colours of regions in a regime map, before and after contact 2–3 has closed: light enough for black text, of
+/// Colours of regions in a regime map, before and after contact 2–3 has closed: light enough for black text, and of
 /// different lightness.
 pub(super) const FALLS: [&str; 2] = ["#bdbdbd"; 2];
 pub(super) const YIELDS: [&str; 2] = ["#fdf6dc", "#e3f1dc"];
@@ -103,7 +103,7 @@ pub(super) const PLANE: Stroke = Stroke::new(INK, 1.6, &[]);
 pub(super) const HATCH: Stroke = Stroke::new(GREY, 0.8, &[]);
 pub(super) const ORIENTATION_AT_START: Stroke = Stroke::new("#9aa7b5", 1.2, &[]);
 pub(super) const ORIENTATION: Stroke = Stroke::new(INK, 1.8, &[]);
-/// The same of spheres, in a projection: shades from the edge to the light, floor, grid and shadows, top wall.
+/// Spheres in a projection: shades from the edge to the light, floor, grid and shadows, top wall.
 pub(super) const SPHERE_SHADES: [&str; 4] = ["#a3b8ce", "#b3c5d8", "#c5d3e2", "#d8e2ec"];
 pub(super) const SPHERE_AT_START: Stroke = Stroke::new("#7488a0", 1.2, &[]);
 pub(super) const FLOOR: &str = "#f5f5f2";
@@ -130,7 +130,8 @@ const UNCHOSEN: [(Shape, Colour); 3] = [
     (Shape::Plus, Colour::Vermilion),
 ];
 
-/// Half the width of a mark: from inside to outside dot, cross, circle, square, diamond and plus.
+/// Returns half the width of a mark. Marks at one place nest: from inside to outside dot, cross, circle, square,
+/// diamond and plus.
 const fn size(shape: Shape) -> f64 {
     match shape {
         Shape::Dot => 1.7,
@@ -179,21 +180,21 @@ impl Mark {
     }
 }
 
-/// A point that the authors have published: around that of a code.
+/// A point that the authors have published, drawn around that of a code.
 pub(super) const PUBLISHED: Mark = Mark::new(Shape::Square, ORANGE, 5.2);
-/// A curve that they have published.
+/// A curve that the authors have published.
 pub(super) const PUBLISHED_CURVE: Stroke = Stroke::new(ORANGE, 1.5, &[5.0, 3.0]);
 /// A measured point that belongs to no code.
 pub(super) const POINT: Mark = Mark::new(Shape::Circle, BLUE, size(Shape::Circle));
 /// The onset of slip and the peak on a curve.
 pub(super) const ONSET: Mark = Mark::new(Shape::Circle, BLUE, 4.5);
 pub(super) const PEAK: Mark = Mark::new(Shape::Diamond, VERMILION, 5.5);
-/// The ends of a yield curve: below, the stack slides under its own weight; above, the top wall reaches the bottom bodies, or
-/// the top one slips on them.
+/// The ends of a yield curve: below, the stack slides under its own weight; above, the top wall reaches the bottom
+/// bodies, or the top one slips on them.
 pub(super) const OWN_WEIGHT: Mark = Mark::new(Shape::Dot, INK, 2.4);
 pub(super) const WALL_REACHES: Mark = Mark::new(Shape::Diamond, INK, 4.0);
 pub(super) const BODIES_SLIP: Mark = Mark::new(Shape::Cross, INK, 3.4);
-/// Rings around points on which a comparison has decided nothing, and around those that differ.
+/// Rings around points on which a comparison is inconclusive, and around those that differ.
 pub(super) const INCONCLUSIVE: Mark = Mark::new(Shape::Circle, RED, 8.0);
 pub(super) const DIFFERS: Mark = Mark::new(Shape::Square, RED, 8.0);
 /// Points of a regime map at which native runs agree with theory, and at which they do not.

@@ -1,4 +1,4 @@
-//! Made-up runs, so that every mark can be counted.
+//! Tests with made-up runs, in which every mark can be counted.
 
 use super::style::{Mark, PUBLISHED_CURVE};
 use super::*;
@@ -46,7 +46,7 @@ fn judgement(code: Code, mu: f64, yield_force: Option<f64>) -> Judgement {
     }
 }
 
-/// LIGGGHTS at two pushes, of which one has failed.
+/// Returns a study of LIGGGHTS at two pushes, one of which has failed.
 fn preparation() -> PreparationStudy {
     let row = |push: f64, force: Option<f64>| PreparationRow {
         code: Code::named("liggghts").unwrap(),
@@ -70,7 +70,7 @@ fn preparation() -> PreparationStudy {
     }
 }
 
-/// Every code at every friction, with LAMMPS having failed.
+/// Returns the rows of every code at every friction; those of LAMMPS have failed.
 fn judgements() -> Vec<Judgement> {
     let codes = Code::of_power(Power::Linear).into_iter();
     let rows = codes.flat_map(|code| {
@@ -175,13 +175,13 @@ fn figure(name: &str) -> Figure {
     figures.find(|figure| figure.name == name).unwrap()
 }
 
-/// Circles of a size, which is printed with two digits.
+/// Counts the circles of a size, which is printed with two digits.
 fn circles(svg: &str, size: f64) -> usize {
     let size = (100.0 * size).round() / 100.0;
     svg.matches(&format!(" r=\"{size}\"")).count()
 }
 
-/// The words of every text, without their styles.
+/// Returns the words of every text, without their styles.
 fn texts(svg: &str) -> Vec<String> {
     let lines = svg.lines().filter(|line| line.starts_with("<text"));
     let words = lines.map(|line| {
@@ -379,7 +379,7 @@ fn figures_without_any_run_are_still_drawn() {
     }
 }
 
-/// A checkout with some points of the published figures, none of which is run.
+/// Returns some points of the published figures, read from a checkout; none of them is run.
 fn published() -> Published {
     let place = tempfile::tempdir().unwrap();
     for (file, rows) in [

@@ -10,10 +10,10 @@ use crate::paper::reproduction::{Curves, SCALING_FRICTIONS, TheoryPoint};
 use crate::study::yield_force::PAPER_STIFFNESSES;
 
 const ERRORS: (f64, f64) = (1e-7, 1e2);
-/// Height of the words that name a panel.
+/// Height of the words that name a panel, on the axis of errors.
 const HEADING: f64 = 2e1;
 
-/// Relative error of each theory, over the friction and over the stiffness.
+/// Draws the relative error of each theory, over the friction and over the stiffness.
 pub(super) fn theory_error(curves: &Curves) -> Figure {
     let over_friction = PAPER_STIFFNESSES.iter().map(|&stiffness| {
         let own = |point: &&TheoryPoint| point.stiffness == stiffness;

@@ -19,7 +19,7 @@ const WITHOUT_FORCE: f64 = 3.0;
 /// Number of points on the curve of rigid cylinders.
 const RIGID_POINTS: usize = 61;
 
-/// Yield force by every code and theory, and the errors of the codes, a panel for each stiffness.
+/// Draws the yield force by every code and theory, and the errors of the codes, one panel per stiffness.
 pub(super) fn yield_curves(
     judgements: &[Judgement],
     curves: &Curves,
@@ -79,7 +79,7 @@ fn forces(judgements: &[Judgement], curves: &Curves, published: Option<&Publishe
     panel
 }
 
-/// Floor friction and load of rigid cylinders, for which F + 3 is 2/(1 − μ/μ_c), up to the highest load shown.
+/// Returns friction and load of rigid cylinders, for which F + 3 is 2/(1 − μ/μ_c), up to the highest load shown.
 fn rigid() -> impl Iterator<Item = (f64, f64)> {
     (0..RIGID_POINTS).map(|index| {
         let part = index as f64 / (RIGID_POINTS - 1) as f64;

@@ -52,12 +52,12 @@ impl Block {
         })
     }
 
-    /// `data` under the name `name`.
+    /// Creates a table of `data` with the name `name`.
     pub fn table(name: &'static str, caption: impl Into<String>, data: &DataTable) -> Self {
         Self::Table(PageTable::new(name, caption, data, data.titled()))
     }
 
-    /// A table that is folded if `long`.
+    /// Creates a table that is folded if `long`.
     pub fn long_table(
         long: bool,
         name: &'static str,
@@ -70,7 +70,7 @@ impl Block {
         })
     }
 
-    /// The texts in it.
+    /// Returns the texts in the block, which may have references.
     fn texts(&mut self) -> Vec<&mut String> {
         match self {
             Self::Paragraph { text } => vec![text],
@@ -106,7 +106,7 @@ pub(super) struct PageTable {
 }
 
 impl PageTable {
-    /// `data` under the name `name`, shown as `table`.
+    /// Creates a table of `data` with the name `name`, shown as `table`.
     pub fn new(
         name: &'static str,
         caption: impl Into<String>,
@@ -130,9 +130,9 @@ impl PageTable {
 pub(super) struct NumberedFigure {
     #[serde(flatten)]
     pub figure: Figure,
-    /// From 1.
+    /// Its place among the figures, from 1.
     pub number: usize,
-    /// The caption with its references.
+    /// The caption with its references filled in.
     #[serde(rename = "text")]
     pub caption: String,
 }
@@ -141,9 +141,9 @@ pub(super) struct NumberedFigure {
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub(super) struct Claims {
     pub table: PageTable,
-    /// Counts by verdict, those that do not hold first.
+    /// Counts by verdict; claims that do not hold come first.
     pub counts: Vec<VerdictCount>,
-    /// In the order of the counts, and within that of the paper.
+    /// The claims in the order of the counts, and within one verdict in that of the paper.
     pub list: Vec<PageClaim>,
     /// The displayed equations, in the order of the paper.
     pub equations: Vec<PageEquation>,
@@ -152,7 +152,7 @@ pub(super) struct Claims {
 /// How many claims have one verdict.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub(super) struct VerdictCount {
-    /// In files, and as a class on the page.
+    /// The verdict in files, and as a class on the page.
     pub verdict: String,
     pub words: &'static str,
     pub count: usize,
@@ -231,7 +231,7 @@ impl Document {
         sections.flat_map(|section| &mut section.blocks)
     }
 
-    /// All tables, in order.
+    /// Returns all tables, in order.
     pub fn tables(&self) -> impl Iterator<Item = &PageTable> {
         self.blocks().filter_map(|block| match block {
             Block::Table(table) | Block::Claims(Claims { table, .. }) => Some(table),
@@ -239,12 +239,12 @@ impl Document {
         })
     }
 
-    /// All figures, in order.
+    /// Returns all figures, in order.
     pub fn figures(&self) -> impl Iterator<Item = &Figure> {
         self.numbered_figures().map(|own| &own.figure)
     }
 
-    /// All figures with their numbers, in order.
+    /// Returns all figures with their numbers, in order.
     pub fn numbered_figures(&self) -> impl Iterator<Item = &NumberedFigure> {
         self.blocks().filter_map(|block| match block {
             Block::Figure(own) => Some(own),

@@ -5,7 +5,7 @@ use super::html::{Drawn, environment};
 use minijinja::context;
 use minijinja::value::{Serde, Value};
 
-/// Every figure, numbered as in the report, with its caption and links to its files.
+/// Returns the page with every figure, numbered as in the report, with its caption and links to its files.
 pub(super) fn gallery(document: &Document) -> String {
     let pictures: Vec<&NumberedFigure> = document.numbered_figures().collect();
     let drawn: Vec<Drawn> = document.figures().map(Drawn::new).collect();

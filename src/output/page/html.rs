@@ -7,7 +7,7 @@ use minijinja::value::{Serde, Value};
 use minijinja::{AutoEscape, Environment, UndefinedBehavior, context};
 use serde::Serialize;
 
-/// The engine of the templates of pages, with the filter `inline` for texts.
+/// Returns the template engine of the pages, with the filter `inline` for texts.
 pub(super) fn environment() -> Environment<'static> {
     let mut environment = Environment::new();
     environment.set_undefined_behavior(UndefinedBehavior::Strict);
@@ -51,7 +51,7 @@ impl Drawn {
     }
 }
 
-/// The verdicts by which claims are filtered.
+/// Returns the verdicts by which claims can be filtered, with their counts.
 fn verdicts(document: &Document) -> Vec<VerdictCount> {
     let blocks = document.sections.iter().flat_map(|section| &section.blocks);
     let counts = blocks.filter_map(|block| match block {

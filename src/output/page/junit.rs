@@ -6,8 +6,8 @@ use crate::paper::claims::{ClaimJudgement, ClaimVerdict};
 use crate::paper::reproduction::Reproduction;
 use quick_junit::{TestCase, TestCaseStatus, TestSuite};
 
-/// One suite for each kind of verdict. A claim that does not hold is a result, not a failed test: its case passes and
-/// names the verdict. A claim that cannot be tested is skipped.
+/// Formats one suite for each kind of verdict. A claim that does not hold is a result, not a failed test: its case
+/// passes and names the verdict. A claim that cannot be tested is skipped.
 pub(super) fn junit(reproduction: &Reproduction, claims: &[ClaimJudgement]) -> String {
     let mut suites: Vec<TestSuite> = Vec::new();
     let mut add_suite = |name: &str, cases: Vec<TestCase>| suites.push(suite(name, cases));

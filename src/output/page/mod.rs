@@ -19,7 +19,7 @@ use crate::paper::reproduction::Reproduction;
 use document::Document;
 use rayon::iter::{IntoParallelRefIterator, ParallelIterator};
 
-/// The document of all tables in LaTeX.
+/// Name of the LaTeX document with all tables.
 const ALL_TABLES: &str = "all";
 
 /// A file of the report.
@@ -39,7 +39,7 @@ impl ReportFile {
     }
 }
 
-/// All files of the report, with the same bytes for the same runs.
+/// Returns all files of the report, with the same bytes for the same runs.
 pub(crate) fn report_files(
     reproduction: &Reproduction,
     claims: &[ClaimJudgement],

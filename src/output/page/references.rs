@@ -6,17 +6,18 @@ use std::collections::BTreeMap;
 #[derive(Debug, Default)]
 pub(super) struct Numbers(BTreeMap<String, String>);
 
-/// Where a reference without words begins.
+/// The beginning of a reference without words.
 const OPEN: &str = "[](#";
 
 impl Numbers {
-    /// The anchor of the thing `name` of a kind such as `figure`, in words `figure 3`.
+    /// Adds the number of the thing `name` of a kind such as `figure`, under its anchor and in words such as `figure
+    /// 3`.
     pub fn add(&mut self, kind: &str, name: &str, number: usize) {
         let anchor = format!("{kind}-{name}");
         self.0.insert(anchor, format!("{kind} {number}"));
     }
 
-    /// `text` with the number of everything to which it refers as `[](#figure-scaling)`; what is unknown stays.
+    /// Fills in the words of every reference such as `[](#figure-scaling)` in `text`; unknown references stay.
     pub fn put_into(&self, text: &str) -> String {
         let mut parts = text.split(OPEN);
         let mut whole = parts.next().unwrap_or_default().to_owned();

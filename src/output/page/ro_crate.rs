@@ -9,7 +9,7 @@ use serde_json::{Value, json};
 
 const PAPER: &str = "https://arxiv.org/abs/2511.06807";
 
-/// The content of `ro-crate-metadata.json` for `files`.
+/// Returns the content of `ro-crate-metadata.json` for `files`.
 pub(super) fn ro_crate(
     document: &Document,
     files: &[ReportFile],
@@ -85,7 +85,7 @@ fn media_type(name: &str) -> &'static str {
     }
 }
 
-/// The programs that ran, each once.
+/// Lists tristack and the programs that ran, each once.
 fn programs(provenances: &[Provenance]) -> Vec<Value> {
     let program = |name: &str, version: &str| {
         json!({

@@ -37,15 +37,14 @@ pub(super) struct Column<'a, R> {
     pub is_optional: bool,
     /// Name in tables for people; `None` for a column that they leave out.
     pub heading: Option<Cow<'static, str>>,
-    /// Its heading on a page with mathematics, where it is another one.
+    /// Its heading on a page with mathematics, if that differs.
     pub title: Option<&'static str>,
     value: ValueOf<'a, R>,
     /// Format of its numbers in tables for people.
     digits: fn(f64) -> String,
     /// Text for people in place of the value.
     cell: Option<CellOf<'a, R>>,
-    /// Its place among the columns that a narrow terminal leaves out, the first of which is 1; `None` for one that
-    /// always stays.
+    /// The order in which a narrow terminal leaves columns out, from 1; `None` for a column that always stays.
     pub dispensable: Option<u8>,
     /// Whether verdicts in its cells are coloured.
     pub has_verdicts: bool,
@@ -56,7 +55,7 @@ impl<'a, R: 'a> Column<'a, R> {
         (self.value)(row)
     }
 
-    /// The value for people.
+    /// Formats the value for people.
     pub fn cell(&self, row: &R) -> String {
         match &self.cell {
             Some(cell) => cell(row),
@@ -64,7 +63,7 @@ impl<'a, R: 'a> Column<'a, R> {
         }
     }
 
-    /// The column by the index of a row.
+    /// Converts the column to one that takes the index of a row.
     fn of(self, rows: Rc<[R]>) -> Column<'a, usize> {
         let Self { value, cell, .. } = self;
         let of_value = rows.clone();
@@ -87,7 +86,7 @@ impl<'a, R: 'a> Column<'a, R> {
 
 /// The columns of a table with rows of type `R`, in order.
 ///
-/// What follows a column (`means`, `shown`, `digits`, `cell`) concerns the one declared last, or the one named by
+/// Methods such as `means`, `shown`, `digits` and `cell` concern the column declared last, or the one named by
 /// [`Columns::again`].
 pub(crate) struct Columns<'a, R> {
     schema: Schema,
@@ -96,7 +95,7 @@ pub(crate) struct Columns<'a, R> {
 }
 
 impl<'a, R: 'a> Columns<'a, R> {
-    /// No columns yet, for version 1 of a table.
+    /// Starts version 1 of a table, without columns.
     pub(crate) fn new(name: &'static str, what: &'static str, found_in: &'static str) -> Self {
         Self {
             schema: Schema {
@@ -110,12 +109,12 @@ impl<'a, R: 'a> Columns<'a, R> {
         }
     }
 
-    /// No columns yet, for a table that only people read.
+    /// Starts a table that only people read, without columns.
     pub(crate) fn for_people() -> Self {
         Self::new("", "", "")
     }
 
-    /// A column of numbers in `unit`, `1` for pure ones.
+    /// Adds a column of numbers in `unit`, `1` for pure numbers.
     pub(crate) fn number<V: Typed>(
         mut self,
         name: impl Into<Cow<'static, str>>,
@@ -140,7 +139,7 @@ impl<'a, R: 'a> Columns<'a, R> {
         self
     }
 
-    /// A column of words or flags.
+    /// Adds a column of words or flags.
     pub(crate) fn text<V: Typed>(
         self,
         name: impl Into<Cow<'static, str>>,
@@ -149,7 +148,7 @@ impl<'a, R: 'a> Columns<'a, R> {
         self.number(name, "", value)
     }
 
-    /// A column of the words of an enum in files, such as `floor-slip`.
+    /// Adds a column of the words that enum variants have in files, such as `floor-slip`.
     pub(crate) fn word<V: Serialize>(
         self,
         name: &'static str,
@@ -170,7 +169,7 @@ impl<'a, R: 'a> Columns<'a, R> {
         self
     }
 
-    /// A column that is for people only, aligned to the left.
+    /// Adds a column for people only, aligned to the left.
     pub(crate) fn left(
         self,
         heading: impl Into<Cow<'static, str>>,
@@ -179,7 +178,7 @@ impl<'a, R: 'a> Columns<'a, R> {
         self.text("", cell).means("").shown(heading)
     }
 
-    /// A column that is for people only, aligned to the right.
+    /// Adds a column for people only, aligned to the right.
     pub(crate) fn right(
         self,
         heading: impl Into<Cow<'static, str>>,
@@ -244,7 +243,7 @@ impl<'a, R: 'a> Columns<'a, R> {
         &mut self.list[self.current]
     }
 
-    /// The parameters of a stack; people see stiffness and floor friction.
+    /// Adds the parameters of a stack; people see stiffness and floor friction.
     pub(crate) fn stack(self, stack: impl Fn(&R) -> Stack + Copy + 'a) -> Self {
         self.number("stiffness", "m g/r", move |row| stack(row).stiffness)
             .means("normal stiffness k_n, 1/ε")
@@ -262,7 +261,7 @@ impl<'a, R: 'a> Columns<'a, R> {
             .means("number n of bodies on the floor: 2 cylinders, or 3 to 5 spheres in a ring")
     }
 
-    /// The part of a contact convention that moves the quasi-static limit.
+    /// Adds the part of a contact convention that moves the quasi-static limit.
     pub(crate) fn convention<C: Into<Option<ContactConvention>>>(
         self,
         convention: impl Fn(&R) -> C + Copy + 'a,
@@ -297,7 +296,7 @@ impl<'a, R: 'a> Columns<'a, R> {
         .means("treatment of the tangential spring of a turning contact")
     }
 
-    /// The contact law.
+    /// Adds the contact law.
     pub(crate) fn law(self, law: impl Fn(&R) -> Law + Copy + 'a) -> Self {
         self.number("law_power", "1", move |row| law(row).power.value())
             .means("power p of the normal force K overlapᵖ: 1 where springs are linear, 1.5 in Hertz's law")
@@ -311,7 +310,7 @@ impl<'a, R: 'a> Columns<'a, R> {
             .means("contacts whose k_t is multiplied by 2/(2 − overlap): none, those of pairs, or every one")
     }
 
-    /// The code of a row.
+    /// Adds the code of a row.
     pub(crate) fn code(self, code: impl Fn(&R) -> &Code + 'a) -> Self {
         let name = move |row: &R| code(row).to_string();
         self.text("code", name)
@@ -319,7 +318,7 @@ impl<'a, R: 'a> Columns<'a, R> {
             .shown("code")
     }
 
-    /// The version of the code, which is hidden from people until `shown` is called.
+    /// Adds the version of the code, which is hidden from people until `shown` is called.
     pub(crate) fn version(self, version: impl Fn(&R) -> &str + Copy + 'a) -> Self {
         let text = move |row: &R| Value::from(version(row));
         self.text("version", text)
@@ -327,7 +326,7 @@ impl<'a, R: 'a> Columns<'a, R> {
             .cell(move |row| or_dash(version(row)))
     }
 
-    /// The source of the runs of a row, which is hidden from people until `shown` is called.
+    /// Adds the source of the runs of a row, which is hidden from people until `shown` is called.
     pub(crate) fn source(self, source: impl Fn(&R) -> Source + 'a) -> Self {
         let meaning = "`live` if it ran on this machine, `recorded` if recorded runs stand in for it, `files` if its results were \
              made elsewhere after a plan";
@@ -335,7 +334,7 @@ impl<'a, R: 'a> Columns<'a, R> {
             .means(meaning)
     }
 
-    /// The verdict on a row.
+    /// Adds the verdict on a row.
     pub(crate) fn verdict(self, verdict: impl Fn(&R) -> Verdict + 'a) -> Self {
         let meaning = "`agrees`, `differs`, `inconclusive`, `no-yield`, `failed` or `missing`; `agrees` alone is a pass";
         self.text("verdict", move |row| verdict(row).as_str())
@@ -344,7 +343,7 @@ impl<'a, R: 'a> Columns<'a, R> {
             .with_verdicts()
     }
 
-    /// The table with these `rows`.
+    /// Completes the table with these `rows`.
     pub(crate) fn rows(self, rows: impl IntoIterator<Item = R>) -> DataTable<'a> {
         let explained = |column: &Column<R>| column.name.is_empty() || !column.meaning.is_empty();
         debug_assert!(

@@ -7,17 +7,17 @@ use crate::output::number::CRITICAL;
 use serde::{Serialize, Serializer};
 use serde_json::json;
 
-/// A table with its values, which are computed when they are written.
+/// A table whose values are computed when they are written.
 pub struct DataTable<'a> {
     pub(super) schema: Schema,
-    /// By the index of a row.
+    /// The columns, which take the index of a row.
     pub(super) columns: Vec<Column<'a, usize>>,
     /// Number of rows.
     pub(super) rows: usize,
 }
 
 impl DataTable<'_> {
-    /// The JSON object, with the `command` that made it unless that stands above it.
+    /// Returns the JSON object. It has the `command` that made it, unless a larger object states it.
     fn object<'b>(&'b self, command: Option<&'b str>) -> Object<'b> {
         Object {
             schema: format!("tristack/{}/{}", self.schema.name, self.schema.version),
@@ -27,7 +27,7 @@ impl DataTable<'_> {
         }
     }
 
-    /// The JSON object without a command, to stand in a larger one.
+    /// Returns the JSON object without a command, for use in a larger one.
     pub(crate) fn part(&self) -> impl Serialize + '_ {
         self.object(None)
     }
@@ -36,19 +36,19 @@ impl DataTable<'_> {
         self.rows == 0
     }
 
-    /// The machine-readable columns.
+    /// Returns the machine-readable columns.
     fn named(&self) -> impl Iterator<Item = &Column<'_, usize>> {
         let all = self.columns.iter();
         all.filter(|column| !column.name.is_empty())
     }
 
-    /// The columns for people with their headings.
+    /// Returns the columns for people with their headings.
     pub(super) fn headed(&self) -> impl Iterator<Item = (&str, &Column<'_, usize>)> + Clone {
         let all = self.columns.iter();
         all.filter_map(|column| Some((column.heading.as_deref()?, column)))
     }
 
-    /// The machine-readable columns as CSV, with every digit.
+    /// Formats the machine-readable columns as CSV, with every digit.
     pub(crate) fn csv(&self) -> String {
         let mut writer = csv::Writer::from_writer(Vec::new());
         let header = writer.write_record(self.named().map(|column| column.name.as_ref()));
@@ -62,7 +62,7 @@ impl DataTable<'_> {
         String::from_utf8(bytes).expect("values are text")
     }
 
-    /// The columns for people.
+    /// Returns the table of the columns for people.
     pub fn shown(&self) -> Table {
         let headings = self.headed();
         let mut table = Table::new(
@@ -79,7 +79,7 @@ impl DataTable<'_> {
         })
     }
 
-    /// The columns for people on a page with mathematics.
+    /// Returns the table of the columns for people, for a page with mathematics.
     pub(crate) fn titled(&self) -> Table {
         let headings = self.headed().map(|(heading, column)| {
             let title = column.title.unwrap_or(heading);
@@ -93,7 +93,8 @@ impl DataTable<'_> {
         table
     }
 
-    /// The columns for people as lines with their units, and the rows as columns with the given names.
+    /// Returns the transposed table: a line for each column for people, with its unit, and a column for each row,
+    /// with its name from `names`.
     pub(crate) fn transposed(&self, names: &[&str]) -> Table {
         let numbers = names.iter().map(|name| (name.to_string(), true));
         let first = [("quantity".to_owned(), false)].into_iter();
@@ -108,7 +109,8 @@ impl DataTable<'_> {
         table
     }
 
-    /// JSON Schema of the table as an object, without the `command` that stands above several tables.
+    /// Returns the JSON Schema of the table as an object. It does not require `command`, which stands above several
+    /// tables.
     pub(crate) fn json_schema(&self) -> serde_json::Value {
         let Schema {
             name,
@@ -149,7 +151,7 @@ impl DataTable<'_> {
         })
     }
 
-    /// JSON Schema of a row of a file of numbers, which leaves out whole columns.
+    /// Returns the JSON Schema of a row of a file of numbers, in which whole columns may be missing.
     pub(crate) fn rows_schema(&self) -> serde_json::Value {
         let columns = self.named().map(|column| {
             let schema =
@@ -168,12 +170,12 @@ impl DataTable<'_> {
         })
     }
 
-    /// Its name.
+    /// Returns the name of the table.
     pub(crate) fn name(&self) -> &'static str {
         self.schema.name
     }
 
-    /// The section of docs/formats.md on the table.
+    /// Formats the section of docs/formats.md on the table.
     pub(crate) fn described(&self) -> String {
         let Schema {
             name,
@@ -194,7 +196,7 @@ impl DataTable<'_> {
     }
 }
 
-/// `cell` on a page with mathematics: a friction by its name is a formula.
+/// Formats `cell` for a page with mathematics: the name of the critical friction becomes a formula.
 fn in_mathematics(cell: String) -> String {
     match cell.as_str() {
         CRITICAL => "$\\mu_c$".to_owned(),
@@ -214,8 +216,8 @@ fn column_schema(column: &Column<usize>) -> serde_json::Value {
     schema
 }
 
-/// `tables` as a JSON object with the `command` that made them. A single table has its `units` and `rows` in this
-/// object, several are objects in a list `tables`.
+/// Formats `tables` as a JSON object with the `command` that made them. A single table has its `units` and `rows` in
+/// this object; several tables are objects in its list `tables`.
 pub(crate) fn json(tables: &[DataTable], command: &str) -> String {
     let json = match tables {
         [table] => serde_json::to_string_pretty(&table.object(Some(command))),

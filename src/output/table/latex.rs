@@ -1,4 +1,4 @@
-//! A table in LaTeX: a longtable whose text columns have widths and whose numbers are aligned at their points.
+//! A table in LaTeX: a longtable in which text columns have widths and numbers are aligned at their decimal points.
 
 use crate::output::text::latex_text;
 
@@ -12,16 +12,17 @@ const PACKAGES: [&str; 6] = [
     "lscape",
 ];
 
-/// Sizes of letters, and how many average ones stand in a line of the class `article` upright and in landscape format.
+/// Sizes of letters, and how many average letters fit in a line of the class `article` upright and in landscape
+/// format; 0 where a size is not used.
 const SIZES: [(&str, f64, f64); 4] = [
     ("\\small", 72.0, 0.0),
     ("\\footnotesize", 81.0, 128.0),
     ("\\scriptsize", 0.0, 144.0),
     ("\\tiny", 0.0, 182.0),
 ];
-/// Widest text, in letters, that stands in one line.
+/// Maximum width, in letters, of a text that stands in one line.
 const ONE_LINE: f64 = 22.0;
-/// Least width of a text in several lines.
+/// Minimum width of a text in several lines, in letters.
 const LEAST: f64 = 14.0;
 /// Space between two columns, in letters.
 const GAP: f64 = 2.0;
@@ -30,7 +31,7 @@ const POWER: usize = 5;
 /// Width of the sign before a number, in digits.
 const SIGN: usize = 2;
 
-/// A document of the tables in these files.
+/// Returns a document that includes the tables in these files.
 pub(crate) fn document_of<'a>(names: impl IntoIterator<Item = &'a str>) -> String {
     let packages = PACKAGES.map(|name| format!("\\usepackage{{{name}}}\n"));
     let inputs = names.into_iter().map(|name| format!("\\input{{{name}}}\n"));
@@ -48,7 +49,7 @@ pub(super) struct LatexColumn<'a> {
     pub cells: Vec<&'a str>,
 }
 
-/// The table with its caption, and `tab:` with its name as its label.
+/// Formats the table with its caption and the label `tab:` followed by `name`.
 pub(super) fn latex(name: &str, caption: &str, columns: &[LatexColumn]) -> String {
     let kinds: Vec<Kind> = columns.iter().map(Kind::of).collect();
     let page = Page::of(&kinds);
@@ -78,7 +79,8 @@ fn joined(cells: impl Iterator<Item = String>) -> String {
 
 /// How a column is set.
 enum Kind {
-    /// Numbers with so many digits, in letters, before and after the point; the width of the heading and of formulas.
+    /// Numbers, with the digits that they need before and after the point (a digit is as wide as a letter), and the
+    /// width of the widest heading line or formula.
     Aligned {
         before: usize,
         after: usize,
@@ -86,7 +88,7 @@ enum Kind {
     },
     /// Text in one line.
     Line { width: f64, is_right: bool },
-    /// Text in several lines; its mean width.
+    /// Text in several lines, with its mean width.
     Lines { mean: f64, has_formulas: bool },
 }
 
@@ -121,7 +123,7 @@ impl Kind {
         }
     }
 
-    /// Its least width.
+    /// Returns its minimum width, in letters.
     fn least(&self) -> f64 {
         match self {
             Self::Aligned {
@@ -134,7 +136,8 @@ impl Kind {
         }
     }
 
-    /// What share of the text columns' width it needs, by the square root of the length of its texts.
+    /// Returns the weight by which it shares the width of the text columns: the square root of the mean length of its
+    /// texts, or 0 if it is no text column.
     fn weight(&self) -> f64 {
         match self {
             Self::Lines { mean, .. } => mean.sqrt(),
@@ -142,7 +145,8 @@ impl Kind {
         }
     }
 
-    /// The width beyond its least with which it reads well: formulas do not break where words do.
+    /// Returns the width beyond its minimum with which it reads well. Formulas need more, since they do not break
+    /// where words do.
     fn comfort(&self) -> f64 {
         match self {
             Self::Lines {
@@ -153,7 +157,7 @@ impl Kind {
         }
     }
 
-    /// Its letter in the head of the table, where text columns have `share` of a line for each unit of weight.
+    /// Returns its specifier in the head of the table. Text columns have `share` of a line for each unit of weight.
     fn alignment(&self, share: f64) -> String {
         match self {
             Self::Aligned { before, after, .. } => format!("D{{.}}{{.}}{{{before}.{after}}}"),
@@ -203,7 +207,7 @@ impl Kind {
     }
 }
 
-/// `text` whose formulas may be broken before brackets and after commas.
+/// Allows line breaks in the formulas of `text`, before brackets and after commas.
 fn breakable_formulas(text: &str) -> String {
     let parts = text.split('$').enumerate();
     let parts = parts.map(|(index, part)| match index % 2 {
@@ -216,7 +220,8 @@ fn breakable_formulas(text: &str) -> String {
     parts.collect::<Vec<_>>().join("$")
 }
 
-/// `tex` with brackets of one size: TeX breaks no line between those that fit what they enclose.
+/// Replaces brackets in `tex` that fit what they enclose by brackets of one size, since TeX breaks no line between
+/// the former.
 fn open_brackets(tex: &str) -> String {
     let mut opened = String::new();
     let mut rest = tex;
@@ -244,7 +249,7 @@ fn open_brackets(tex: &str) -> String {
     opened + rest
 }
 
-/// `text` whose long words, such as versions, may be broken after signs.
+/// Allows line breaks in long words of `text`, such as versions, after `+` and `.`.
 fn breakable(text: &str) -> String {
     let words = text.split(' ').map(|word| {
         let is_plain = !word.contains(['\\', '$']);
@@ -258,9 +263,9 @@ fn breakable(text: &str) -> String {
     words.collect::<Vec<_>>().join(" ")
 }
 
-/// A number and its power of ten, which stands in the room after the point even if the number has no point.
+/// Formats a number and its power of ten, which stands in the space after the point even if the number has no point.
 ///
-/// A column takes all of a cell without a point to be before it, where there is no room for the power.
+/// A column places all of a cell without a point before the point, where there is no room for the power.
 fn with_power(number: &str, exponent: &str) -> String {
     let power = format!("\\times10^{{{}}}", exponent.trim_start_matches('+'));
     match number.contains('.') {
@@ -269,7 +274,8 @@ fn with_power(number: &str, exponent: &str) -> String {
     }
 }
 
-/// Width of a number in digits before and after its point, its power of ten after it; `None` for a text.
+/// Returns the width of a number in digits before and after its point, with its power of ten after it; `None` for a
+/// text.
 fn digits(cell: &str) -> Option<(usize, usize)> {
     if cell == "-" || cell.is_empty() || is_formula(cell) {
         return Some((1, 0));
@@ -298,7 +304,7 @@ fn is_formula(cell: &str) -> bool {
     inside.is_some_and(|tex| !tex.contains('$'))
 }
 
-/// `heading` broken at spaces into lines that are hardly longer than the cells below it.
+/// Breaks `heading` at spaces into lines that are hardly longer than the cells below it.
 fn heading_lines(heading: &str, longest: f64) -> Vec<String> {
     let widest = longest.max(9.0);
     let mut lines: Vec<String> = Vec::new();
@@ -315,7 +321,7 @@ fn heading_lines(heading: &str, longest: f64) -> Vec<String> {
     }
 }
 
-/// The words of a text; a formula is one.
+/// Splits a text into words; a formula is one word.
 fn words(text: &str) -> Vec<&str> {
     let mut inside = false;
     let words = text.split(move |char: char| {
@@ -325,7 +331,7 @@ fn words(text: &str) -> Vec<&str> {
     words.collect()
 }
 
-/// Width of `text` in average letters: of a formula without its commands.
+/// Returns the width of `text` in average letters. A TeX command in a formula counts as one letter.
 fn width(text: &str) -> f64 {
     let (mut letters, mut in_math, mut in_command) = (0.0, false, false);
     for char in text.chars() {
@@ -343,16 +349,17 @@ fn width(text: &str) -> f64 {
     letters
 }
 
-/// The size of letters and the format of the page.
+/// The size of letters and the orientation of the page.
 struct Page {
     size: &'static str,
     is_landscape: bool,
-    /// Letters in a line.
+    /// Number of letters in a line.
     letters: f64,
 }
 
 impl Page {
-    /// The largest letters with which the columns have their least width.
+    /// Chooses the largest letters with which every column reads well, in landscape format only if none fit upright.
+    /// If none fit at all, it takes the smallest.
     fn of(kinds: &[Kind]) -> Self {
         let least: f64 = kinds.iter().map(|kind| kind.least() + GAP).sum();
         let comfort = least + kinds.iter().map(Kind::comfort).sum::<f64>();
@@ -372,7 +379,7 @@ impl Page {
         }
     }
 
-    /// The share of a line that a text column has for each unit of its weight.
+    /// Returns the share of a line that a text column has for each unit of its weight.
     fn text_share(&self, kinds: &[Kind]) -> f64 {
         let fixed = kinds.iter().filter(|kind| kind.weight() == 0.0);
         let fixed: f64 = fixed.map(Kind::least).sum();
@@ -382,7 +389,7 @@ impl Page {
         free / weights.max(1.0)
     }
 
-    /// What stands before and after the table.
+    /// Returns what stands before and after the table.
     fn environment(&self) -> (String, &'static str) {
         let spacing = format!("{}\\setlength{{\\tabcolsep}}{{3pt}}\n", self.size);
         match self.is_landscape {

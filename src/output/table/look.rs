@@ -1,9 +1,9 @@
 //! The look of a table on terminals, and the limits within which it is drawn.
 
-/// The look of a table on terminals. Each list has an element a column; no elements stand for `None` and `false`.
+/// The look of a table on terminals. Each list has one element per column; an empty list stands for `None` and `false`.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub(super) struct TerminalLook {
-    /// The place of a column among those that a narrow terminal leaves out.
+    /// The order in which a narrow terminal leaves the column out; `None` if it always stays.
     pub dispensable: Vec<Option<u8>>,
     /// Whether verdicts in the cells of a column are coloured.
     pub with_verdicts: Vec<bool>,
@@ -17,7 +17,7 @@ impl TerminalLook {
     }
 }
 
-/// The width of a drawn table, and the least of the content of each column.
+/// The width of a drawn table, and the minimum width of the content of each column.
 pub(super) struct Limits {
     pub width: usize,
     pub least: Vec<usize>,

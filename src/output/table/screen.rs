@@ -1,4 +1,4 @@
-//! The terminal that standard output is, if it is one: its width and its colours.
+//! Width and colours of standard output, which may be a terminal.
 
 use crate::study::Verdict;
 use console::{Style, Term, measure_text_width};
@@ -13,7 +13,8 @@ pub(super) struct Screen {
 }
 
 impl Screen {
-    /// That of standard output. COLUMNS, if it is set, is its width, and a pipe has none without it.
+    /// Returns what standard output can show. Its width is `COLUMNS` if that is set, else that of the terminal; a
+    /// pipe has none.
     pub fn of_standard_output() -> Self {
         let set = var_os("COLUMNS").and_then(|text| text.to_str()?.parse().ok());
         let terminal = || {
@@ -28,7 +29,7 @@ impl Screen {
     }
 }
 
-/// `text` with lines no longer than standard output is wide. Tables, which have been fitted, stay as they are.
+/// Wraps `text` to the width of standard output. Tables have been fitted already and stay as they are.
 pub(crate) fn wrapped_to_screen(text: String) -> String {
     match Screen::of_standard_output().width {
         Some(width) => wrapped(&text, width),
@@ -36,7 +37,7 @@ pub(crate) fn wrapped_to_screen(text: String) -> String {
     }
 }
 
-/// `text` with its longer lines broken between words, where the next lines begin as far in as the first.
+/// Breaks lines that are longer than `width` between words. Continuation lines have the indentation of the first one.
 pub(super) fn wrapped(text: &str, width: usize) -> String {
     let lines = text.split_inclusive('\n').map(|line| {
         let is_table = line.starts_with(['┌', '│', '╞', '├', '└']);
@@ -66,7 +67,7 @@ fn broken(line: &str, width: usize) -> String {
     lines.join("\n") + end
 }
 
-/// `cell` with the verdicts among its words in their colours.
+/// Colours the verdicts among the words of `cell`.
 pub(super) fn coloured(cell: &str) -> String {
     let words = cell.split_inclusive(' ').map(|word| {
         let name = word.trim_end();
@@ -78,7 +79,7 @@ pub(super) fn coloured(cell: &str) -> String {
     words.collect()
 }
 
-/// The colour of a verdict. The word says the same, so that nothing is lost without it.
+/// Returns the colour of a verdict. The word says the same, so that nothing is lost without colour.
 fn style_of(word: &str) -> Option<Style> {
     let mut all = Verdict::ALL.into_iter();
     let style = Style::new().force_styling(true);

@@ -10,23 +10,23 @@ use comfy_table::{
 /// Blanks on both sides of the content of a cell.
 const PADDING: usize = 2;
 
-/// Letters from which on a text is long for a column.
+/// Number of letters beyond which a text is long for a column.
 const LONG_TEXT: usize = 60;
 
-/// Named columns and rows of cells. In a cell `…` between backticks is code.
+/// Named columns and rows of cells. In a cell, text between backticks is code.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Table {
     pub(super) headings: Vec<String>,
     /// Whether a column holds numbers, aligned to the right.
     pub(super) numeric: Vec<bool>,
     pub(super) rows: Vec<Vec<String>>,
-    /// Anchors of the rows on a page; none, or one for each row.
+    /// Anchors of the rows on a page: empty, or one for each row.
     pub(super) anchors: Vec<String>,
     pub(super) look: TerminalLook,
 }
 
 impl Table {
-    /// An empty table; each column has a heading and may hold numbers.
+    /// Creates an empty table from headings, each with whether its column holds numbers.
     pub(crate) fn new(columns: impl IntoIterator<Item = (String, bool)>) -> Self {
         let (headings, numeric) = columns.into_iter().unzip();
         Self {
@@ -38,14 +38,14 @@ impl Table {
         }
     }
 
-    /// The table with an anchor for each row.
+    /// Gives each row an anchor.
     pub(crate) fn anchored(mut self, anchors: impl IntoIterator<Item = String>) -> Self {
         self.anchors = anchors.into_iter().collect();
         debug_assert_eq!(self.anchors.len(), self.rows.len());
         self
     }
 
-    /// The table with this look on terminals.
+    /// Sets the look on terminals.
     pub(super) fn on_terminals(self, look: TerminalLook) -> Self {
         Self { look, ..self }
     }
@@ -60,12 +60,13 @@ impl Table {
         self.rows.len()
     }
 
-    /// The table in Markdown.
+    /// Formats the table as Markdown.
     pub(crate) fn markdown(&self) -> String {
         self.drawn(presets::ASCII_MARKDOWN, markdown_cell, None)
     }
 
-    /// The table in this style, within `limits` if there are any. Only Markdown has anchors.
+    /// Draws the table in a style, within `limits` if there are any. Of the tables drawn so, only those for Markdown
+    /// have anchors.
     pub(super) fn drawn(
         &self,
         style: TableStyle,
@@ -110,7 +111,7 @@ impl Table {
         lines.join("\n") + "\n"
     }
 
-    /// The table in LaTeX, with a caption and the label `tab:` with `name`.
+    /// Formats the table as LaTeX, with a caption and the label `tab:` followed by `name`.
     pub(crate) fn latex(&self, name: &str, caption: &str) -> String {
         let columns = self.headings.iter().zip(&self.numeric).enumerate();
         let columns = columns.map(|(column, (heading, &numeric))| LatexColumn {
@@ -121,7 +122,7 @@ impl Table {
         latex(name, caption, &columns.collect::<Vec<_>>())
     }
 
-    /// The table in HTML. On a narrow screen each row of one with long texts becomes a block of lines.
+    /// Formats the table as HTML. If it has long texts, each row becomes a block of lines on a narrow screen.
     pub(crate) fn html(&self) -> String {
         let class = if self.has_long_texts() {
             " class=\"stacked\""
@@ -178,7 +179,7 @@ fn number_class(numeric: bool) -> &'static str {
     if numeric { " class=\"number\"" } else { "" }
 }
 
-/// A number in HTML with a minus sign and a power of ten, or with its percent sign; any other text as it is.
+/// Formats a number in HTML with a minus sign and a power of ten, or with its percent sign; other text as it is.
 fn html_number(cell: &str) -> String {
     let number = cell.strip_suffix(" %").unwrap_or(cell);
     if number.parse::<f64>().is_err() {

@@ -1,4 +1,4 @@
-//! A table on a terminal: as wide as that, and with the verdicts in colour.
+//! A table on a terminal, fitted to its width and with coloured verdicts.
 
 use super::Table;
 use super::look::{Limits, TerminalLook};
@@ -7,9 +7,9 @@ use crate::model::readable_lines;
 use comfy_table::presets;
 use console::measure_text_width;
 
-/// Columns that a text of a cell needs to be readable in broken lines.
+/// Number of columns that the text of a cell needs to be readable in broken lines.
 const NARROWEST_TEXT: usize = 16;
-/// Columns that a cell needs beside its content: two blanks and a border.
+/// Number of columns that a cell needs beside its content: two blanks and a border.
 const BESIDE_CONTENT: usize = 3;
 /// The borders between cells.
 const BORDERS: [char; 2] = ['│', '┆'];
@@ -40,12 +40,12 @@ impl Content {
         }
     }
 
-    /// Where nothing is broken.
+    /// Returns the width if nothing is broken.
     fn whole(&self) -> usize {
         self.heading.max(self.cells)
     }
 
-    /// Where headings are broken between words, and texts into lines of this width.
+    /// Returns the width if headings are broken between words, and texts into lines of width `texts`.
     fn least(&self, texts: usize) -> usize {
         let cells = match self.is_text {
             true => self.cells.min(texts),
@@ -55,15 +55,15 @@ impl Content {
     }
 }
 
-/// The width of a table with contents of these widths.
+/// Returns the width of a table with contents of these widths.
 fn needed(contents: impl Iterator<Item = usize>) -> usize {
     let cells = contents.map(|content| content + BESIDE_CONTENT);
     1 + cells.sum::<usize>()
 }
 
 impl Table {
-    /// The table for standard output: of any width for a file or a pipe; for a terminal as wide as that, or as COLUMNS
-    /// says, with the verdicts in colour.
+    /// Formats the table for standard output. A file or a pipe takes any width; on a terminal, or where `COLUMNS` is
+    /// set, the table is fitted to the width. Verdicts are coloured on a terminal.
     pub fn terminal(&self) -> String {
         self.on(Screen::of_standard_output())
     }
@@ -75,7 +75,7 @@ impl Table {
         }
     }
 
-    /// The table in frames, within `limits` if there are any.
+    /// Draws the table in frames, within `limits` if there are any.
     fn framed(&self, limits: Option<&Limits>, has_colours: bool) -> String {
         let text = self.drawn(presets::UTF8_FULL_CONDENSED, readable_lines, limits);
         match has_colours {
@@ -84,8 +84,8 @@ impl Table {
         }
     }
 
-    /// The table at most `width` wide: with broken headings and without dispensable columns, then with broken texts as
-    /// well, or else row by row.
+    /// Draws the table at most `width` wide: with broken headings and without dispensable columns; if that is too
+    /// wide, with broken texts as well; or else row by row.
     fn fitted(&self, width: usize, has_colours: bool) -> String {
         let contents: Vec<Content> = (0..self.headings.len())
             .map(|column| Content::of(self, column))
@@ -109,8 +109,8 @@ impl Table {
         self.stacked(width, has_colours)
     }
 
-    /// The columns that stay: those that are not dispensable, and of the others as many as there is room for, from the
-    /// last to leave to the first.
+    /// Returns the columns that stay: those that are not dispensable, and as many of the others as there is room for,
+    /// from the last to leave to the first.
     fn kept(&self, contents: &[Content], width: usize) -> Vec<usize> {
         let place = |column: &usize| self.look.dispensable.get(*column).copied().flatten();
         let all = 0..self.headings.len();
@@ -128,7 +128,7 @@ impl Table {
         kept
     }
 
-    /// The table with these of its columns.
+    /// Returns the table with the `kept` columns only.
     fn with_columns(&self, kept: &[usize]) -> Self {
         let texts = |cells: &[String]| kept.iter().map(|&column| cells[column].clone()).collect();
         Self {
@@ -147,7 +147,7 @@ impl Table {
         }
     }
 
-    /// The columns that are not among those `kept`, and where they are.
+    /// Returns a note on the columns that are not `kept` and where they are shown; empty if all are kept.
     fn left_out(&self, kept: &[usize], width: usize, whole: usize) -> String {
         let columns = self.headings.iter().enumerate();
         let missing = columns.filter(|(column, _)| !kept.contains(column));
@@ -166,7 +166,7 @@ impl Table {
         wrapped(&note, width)
     }
 
-    /// A frame for each row, with a line for each column.
+    /// Draws a frame for each row, with a line for each column.
     fn stacked(&self, width: usize, has_colours: bool) -> String {
         let limits = Limits {
             width,
@@ -184,13 +184,13 @@ impl Table {
         frames.collect()
     }
 
-    /// `text`, the drawn table, with the verdicts in the cells of the columns that have some in colour.
+    /// Colours the verdicts in `text`, the drawn table, in the columns that have verdicts.
     fn with_coloured_verdicts(&self, text: &str) -> String {
         let lines = text.split_inclusive('\n').map(|line| {
             if !line.starts_with(BORDERS) {
                 return line.to_owned();
             }
-            // The part before the first border is empty.
+            // The first part is the left border.
             let parts = line.split_inclusive(BORDERS).enumerate();
             let parts = parts.map(|(index, part)| match index.checked_sub(1) {
                 Some(column) if self.look.has_verdicts(column) => coloured(part),

@@ -3,7 +3,7 @@
 use super::DataTable;
 
 impl DataTable<'_> {
-    /// A line that names the unit of every column that has one, for below the table; empty where none has.
+    /// Returns a line for below the table that names the unit of every column that has one; empty if none has.
     pub(crate) fn units(&self) -> String {
         let mut units: Vec<(&str, Vec<&str>)> = Vec::new();
         let measured = self.headed();

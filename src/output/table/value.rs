@@ -13,7 +13,7 @@ pub(crate) enum Value {
 }
 
 impl Value {
-    /// The word of an enum variant in files, such as `floor-slip`.
+    /// Returns the word of an enum variant in files, such as `floor-slip`.
     pub(crate) fn word(name: impl Serialize) -> Self {
         match serde_json::to_value(name) {
             Ok(serde_json::Value::String(word)) => Self::Text(word),
@@ -21,7 +21,7 @@ impl Value {
         }
     }
 
-    /// The value for people: numbers as `digits` writes them.
+    /// Formats the value for people, its numbers by `digits`.
     pub(crate) fn shown(&self, digits: fn(f64) -> String) -> String {
         match self {
             Self::Missing => "-".to_owned(),
@@ -44,7 +44,7 @@ pub(crate) enum ValueKind {
 }
 
 impl ValueKind {
-    /// Its name in a JSON Schema.
+    /// Returns its name in a JSON Schema.
     pub(super) fn as_str(self) -> &'static str {
         match self {
             Self::Text => "string",
@@ -55,7 +55,7 @@ impl ValueKind {
     }
 }
 
-/// Values of a column, all of one kind.
+/// A type of values whose column has one kind.
 pub(crate) trait Typed: Into<Value> {
     const KIND: ValueKind;
     /// Whether a value may be missing.
@@ -88,7 +88,7 @@ impl Typed for String {
     const KIND: ValueKind = ValueKind::Text;
 }
 
-/// The word of an enum.
+/// A text that may be missing, such as the word of an enum.
 impl Typed for Value {
     const KIND: ValueKind = ValueKind::Text;
     const IS_OPTIONAL: bool = true;

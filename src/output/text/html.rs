@@ -4,14 +4,14 @@ use super::span::{Span, spans, without_signs_of_tags};
 use crate::model::readable_lines;
 use pulldown_latex::{Event, Parser, RenderConfig, Storage, push_mathml};
 
-/// A place in a formula where a line may end. No browser breaks one `<math>`.
+/// A place in a formula where a line may end: between two `<math>` elements, since no browser breaks one.
 const BREAK: &str = "</math><wbr><math display=\"inline\">";
-/// Letters from which on a formula may be broken.
+/// Number of letters from which a formula may be broken.
 const LONG: usize = 24;
 /// Operators after which a formula may be broken.
 const BREAKING: [&str; 4] = ["=", "+", "−", ","];
 
-/// `text` in HTML.
+/// Formats `text` as HTML.
 pub(crate) fn html_text(text: &str) -> String {
     let text = readable_lines(text);
     let mut html = String::new();
@@ -22,7 +22,7 @@ pub(crate) fn html_text(text: &str) -> String {
             html += &span(own);
             continue;
         };
-        // Lines may break after a formula, but not before a full stop.
+        // Lines may break after a formula, but not before the punctuation that follows it.
         let rest = next.trim_start_matches(['.', ',', ';', ':', ')', '’']);
         let stops = &next[..next.len() - rest.len()];
         let formula = span(own);
@@ -38,7 +38,7 @@ pub(crate) fn html_text(text: &str) -> String {
     html
 }
 
-/// `text` as the value of an attribute, as it is written.
+/// Formats `text` as the value of an attribute, with its notation as it is written.
 pub(crate) fn html_attribute(text: &str) -> String {
     escaped(&readable_lines(text))
 }
@@ -54,7 +54,7 @@ fn span(span: Span) -> String {
     }
 }
 
-/// The text of a link, in which no further link begins.
+/// Formats the text of a link. Links in it become plain text.
 fn html_text_without_links(text: &str) -> String {
     let parts = spans(text).into_iter().map(|part| match part {
         Span::Link { text, .. } => escaped(text),
@@ -70,7 +70,7 @@ fn escaped(text: &str) -> String {
         .replace('"', "&quot;")
 }
 
-/// `tex` as MathML; `None` if it is not TeX.
+/// Converts `tex` to MathML. Returns `None` if it is not TeX or contains `&` or `"`.
 fn mathml(tex: &str) -> Option<String> {
     // The renderer does not escape the names of operators and texts.
     if tex.contains(['&', '"']) {
@@ -85,8 +85,8 @@ fn mathml(tex: &str) -> Option<String> {
     Some(breakable(&set_as_in_tex(&mathml)))
 }
 
-/// A long formula with breaks after the operators that are in no fraction, root or other part of it. They keep the
-/// spaces of an operator between two operands.
+/// Inserts breaks into a long formula, after operators outside of its fractions, roots and other parts. Such
+/// operators keep the spaces of an operator between two operands.
 fn breakable(mathml: &str) -> String {
     let parts = || {
         mathml
@@ -115,8 +115,8 @@ fn breakable(mathml: &str) -> String {
     broken
 }
 
-/// `mathml` with the Greek letter in place of the micro sign, which browsers do not slant, with spaces in place of their
-/// escaped names, and without space around slashes and bars, as TeX sets them.
+/// Sets `mathml` as TeX would: with the Greek letter in place of the micro sign (which browsers do not slant), spaces
+/// in place of their escaped names, and no space around slashes and bars.
 fn set_as_in_tex(mathml: &str) -> String {
     mathml
         .replace('\u{b5}', "\u{3bc}")

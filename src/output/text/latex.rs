@@ -3,8 +3,8 @@
 use super::span::{Span, Target, spans};
 use crate::model::readable;
 
-/// `text` for LaTeX: special characters escaped, symbols as commands, code in typewriter letters. Links keep their text
-/// alone.
+/// Formats `text` for LaTeX: escapes special characters, writes symbols as commands, and sets code in typewriter
+/// letters. Of a link it keeps the text alone.
 pub(crate) fn latex_text(text: &str) -> String {
     let text = readable(text);
     spans(&text).into_iter().map(span).collect()
@@ -23,7 +23,7 @@ fn span(span: Span) -> String {
     }
 }
 
-/// Code may be broken after these signs, without a hyphen.
+/// Allows line breaks in code after underscores and slashes, without a hyphen.
 fn breakable(code: &str) -> String {
     code.replace("\\_", "\\_\\allowbreak{}")
         .replace('/', "/\\allowbreak{}")
@@ -66,7 +66,7 @@ const SYMBOLS: &str = r"
     ₀ _0  ₁ _1  ₂ _2  ₃ _3  ₄ _4  ₅ _5  ₆ _6  ₇ _7  ₈ _8  ₉ _9  ₙ _n  ₜ _t  ᵢ _i  ⱼ _j  ᵣ _r
 ";
 
-/// The TeX command of a symbol.
+/// Returns the TeX command of a symbol.
 fn symbol(character: char) -> Option<&'static str> {
     let mut words = SYMBOLS.split_whitespace();
     let mut pairs = std::iter::from_fn(|| words.next().zip(words.next()));

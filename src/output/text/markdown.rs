@@ -3,10 +3,10 @@
 use super::span::{Span, Target, spans, without_mathematics, without_signs_of_tags};
 use crate::model::{readable, readable_lines};
 
-/// `text` in one cell of a Markdown table, as [`markdown_text`].
+/// Formats `text` for one cell of a Markdown table, otherwise as [`markdown_text`].
 pub(crate) fn markdown_cell(text: &str) -> String {
     let text = readable_lines(&text.replace('\n', " "));
-    // TeX knows `\|` as another sign, and code ends at no bar in the tables of people who read Markdown.
+    // A bar would end the cell, in code too. In TeX `\|` is another sign, so there it becomes `\vert`.
     let bar = |part: Span| match part {
         Span::Math(tex) => format!("${}$", without_signs_of_tags(tex).replace('|', "\\vert ")),
         other => span(other).replace('|', "\\|"),
@@ -14,13 +14,13 @@ pub(crate) fn markdown_cell(text: &str) -> String {
     spans(&text).into_iter().map(bar).collect()
 }
 
-/// `text` in Markdown without HTML in it; parts between backticks stay code, in which nothing needs an escape.
+/// Formats `text` as Markdown without HTML. Parts between backticks stay code, in which nothing needs an escape.
 pub(crate) fn markdown_text(text: &str) -> String {
     let text = readable_lines(text);
     spans(&text).into_iter().map(span).collect()
 }
 
-/// Notes on a row, a line each, in an item of a list. They may hold the last words of a program.
+/// Formats notes on a row, one per line, for an item of a list. They may hold the last words of a program.
 pub(crate) fn markdown_notes(notes: &str) -> String {
     markdown_text(&without_mathematics(notes)).replace('\n', "\n  ")
 }
@@ -37,7 +37,7 @@ fn span(span: Span) -> String {
     }
 }
 
-/// `text` in which no tag, entity, link or picture begins.
+/// Escapes `text` so that no tag, entity, link, picture or mathematics begins in it.
 fn without_markup(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());
     for (at, char) in text.char_indices() {
@@ -54,7 +54,7 @@ fn without_markup(text: &str) -> String {
     escaped
 }
 
-/// `text` as code in Markdown, also if it has backticks.
+/// Formats `text` as code in Markdown, even if it contains backticks.
 pub(crate) fn markdown_code(text: &str) -> String {
     let text = readable(text);
     let longest = text.split(|char| char != '`').map(str::len).max();

@@ -1,7 +1,7 @@
-//! Texts of one notation, written as HTML, Markdown and LaTeX.
+//! One notation for texts, and its conversion to HTML, Markdown and LaTeX.
 //!
-//! In a text `…` between backticks is code, `$…$` is TeX mathematics, `[text](#anchor)` is a link within a page or to a
-//! file beside it, and `arXiv:2511.06807` is a link to that paper. Whatever does not follow the notation is plain text.
+//! Text between backticks is code, `$…$` is TeX mathematics, `[text](#anchor)` is a link within a page or to a file
+//! beside it, and `arXiv:2511.06807` is a link to that paper. Whatever does not follow the notation is plain text.
 
 mod html;
 mod latex;

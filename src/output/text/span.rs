@@ -1,4 +1,4 @@
-//! The parts of a text.
+//! The parser of the notation: it splits a text into its parts.
 
 /// A part of a text.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -18,7 +18,7 @@ pub(super) enum Span<'a> {
 pub(super) enum Target<'a> {
     /// An anchor with its `#`, or a file beside the page.
     Local(&'a str),
-    /// The number of a paper.
+    /// The arXiv number of a paper.
     ArXiv(&'a str),
 }
 
@@ -31,21 +31,22 @@ impl std::fmt::Display for Target<'_> {
     }
 }
 
-/// Starts of links to files beside the page; any other file is not linked.
+/// The folders beside the page whose files may be linked; links to other files are plain text.
 const FOLDERS: [&str; 2] = ["tables/", "figures/"];
 const ARXIV: &str = "arXiv:";
 
-/// A `text` from outside, such as the last words of a program, in which no dollar sign begins mathematics.
+/// Escapes the dollar signs in a `text` from outside, such as the last words of a program, so that none begins
+/// mathematics.
 pub(crate) fn without_mathematics(text: &str) -> String {
     text.replace('$', "\\$")
 }
 
-/// `tex` whose relations are commands, so that no tag of HTML begins in it.
+/// Replaces `<` and `>` in `tex` by commands, so that no HTML tag begins in it.
 pub(super) fn without_signs_of_tags(tex: &str) -> String {
     tex.replace('<', "\\lt ").replace('>', "\\gt ")
 }
 
-/// The parts of `text`, in order.
+/// Splits `text` into its parts, in order.
 pub(super) fn spans(text: &str) -> Vec<Span<'_>> {
     let mut spans = Vec::new();
     let (mut plain, mut at) = (0, 0);
@@ -68,7 +69,7 @@ pub(super) fn spans(text: &str) -> Vec<Span<'_>> {
     spans
 }
 
-/// The marked part with which `text` begins, and its length with the marks.
+/// Parses the marked part at the start of `text`. Returns it with its length, marks included.
 fn marked(text: &str) -> Option<(Span<'_>, usize)> {
     match text.as_bytes().first()? {
         b'`' => {
@@ -83,7 +84,8 @@ fn marked(text: &str) -> Option<(Span<'_>, usize)> {
     }
 }
 
-/// TeX touches its dollar signs from inside, and no digit follows: amounts of money are none.
+/// Parses mathematics: TeX that touches its dollar signs from inside. No digit follows, so that amounts of money are
+/// not taken for mathematics.
 fn math(text: &str) -> Option<(Span<'_>, usize)> {
     let (inside, after) = text[1..].split_once('$')?;
     let touches = !inside.is_empty() && inside.trim() == inside;
@@ -107,7 +109,7 @@ fn link(text: &str) -> Option<(Span<'_>, usize)> {
     is_link.then(|| (link, label.len() + target.len() + 4))
 }
 
-/// Such as `arXiv:2511.06807`.
+/// Parses the number of a paper, such as `arXiv:2511.06807`.
 fn paper(text: &str) -> Option<(Span<'_>, usize)> {
     let number = text.strip_prefix(ARXIV)?;
     let end = number.find(|char: char| !char.is_ascii_digit() && char != '.');

@@ -1,4 +1,4 @@
-//! DejaVu Sans, of which a PDF draws the outlines.
+//! DejaVu Sans, whose outlines a PDF draws.
 
 use super::markup::{Style, spans};
 use pdf_writer::Content;
@@ -18,19 +18,19 @@ impl Font {
         Self(Face::parse(data, 0).expect("the font is part of the program"))
     }
 
-    /// One glyph a character; one that the font lacks becomes an empty box.
+    /// Returns one glyph per character; a character that the font lacks becomes an empty box.
     fn glyphs(&self, text: &str) -> impl Iterator<Item = GlyphId> {
         let glyphs = text.chars().map(|character| self.0.glyph_index(character));
         glyphs.map(Option::unwrap_or_default)
     }
 
-    /// The width of a glyph in multiples of the font size.
+    /// Returns the width of a glyph in multiples of the font size.
     fn advance(&self, glyph: GlyphId) -> f64 {
         let advance = self.0.glyph_hor_advance(glyph).unwrap_or(0);
         f64::from(advance) / f64::from(self.0.units_per_em())
     }
 
-    /// The width of `text` in multiples of the font size.
+    /// Returns the width of `text` in multiples of the font size.
     pub fn width(&self, text: &str) -> f64 {
         self.glyphs(text).map(|glyph| self.advance(glyph)).sum()
     }
@@ -55,7 +55,7 @@ impl Font {
     }
 }
 
-/// The width of a line of text of `size` in pixels, with its marks.
+/// Returns the width in pixels of a line of text of `size`, whose marks set its styles.
 pub(in crate::output::figures) fn text_width(text: &str, size: f64) -> f64 {
     let parts = spans(text).into_iter();
     let widths = parts.map(|(style, words)| {
@@ -82,7 +82,7 @@ impl OutlineBuilder for Pen<'_> {
         self.place = (x, y);
     }
 
-    /// As the same curve of the third order, the only one that a PDF has.
+    /// Draws the same curve as one of the third order, the only kind that a PDF has.
     fn quad_to(&mut self, x1: f32, y1: f32, x: f32, y: f32) {
         let towards = |end: f32, control: f32| end + (control - end) * 2.0 / 3.0;
         let (from_x, from_y) = self.place;

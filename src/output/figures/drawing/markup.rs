@@ -10,7 +10,7 @@ pub(super) enum Style {
 }
 
 impl Style {
-    /// Size, relative to the text, and distance by which it is lowered, in pixels.
+    /// Returns the size, relative to the text, and the distance by which it is lowered, in pixels.
     pub fn size_and_drop(self) -> (f64, f64) {
         match self {
             Self::Plain | Self::Italic => (1.0, 0.0),
@@ -20,8 +20,8 @@ impl Style {
     }
 }
 
-/// `text` in parts of one style each: `_x_` is one letter in italics, `_{…}` a subscript. The small letters and digits
-/// of Unicode are set like all others, since fonts draw them in sizes of their own or not at all.
+/// Splits `text` into parts of one style each: `_x_` is one letter in italics, `_{…}` a subscript. The small letters
+/// and digits of Unicode are set like all others, since fonts draw them in sizes of their own or not at all.
 pub(super) fn spans(text: &str) -> Vec<(Style, String)> {
     let mut spans: Vec<(Style, String)> = Vec::new();
     let marked = marked_spans(text).into_iter();
@@ -36,7 +36,7 @@ pub(super) fn spans(text: &str) -> Vec<(Style, String)> {
     spans
 }
 
-/// The style and the letter of a small letter of Unicode.
+/// Returns the style and the ordinary letter of a subscript or superscript of Unicode.
 fn small(letter: char) -> Option<(Style, char)> {
     const RAISED: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
     let digit = |place: usize| char::from(b'0' + place as u8);
@@ -52,7 +52,7 @@ fn small(letter: char) -> Option<(Style, char)> {
     }
 }
 
-/// The parts of `text` by its marks alone.
+/// Splits `text` by its marks alone.
 fn marked_spans(text: &str) -> Vec<(Style, &str)> {
     let mut spans = Vec::new();
     let (mut plain, mut from) = (text, 0);
@@ -71,7 +71,7 @@ fn marked_spans(text: &str) -> Vec<(Style, &str)> {
     spans
 }
 
-/// The marked words at the start of `text`, which follows an underscore, and the rest.
+/// Parses the marked words at the start of `text`, which follows an underscore. Returns style, words and rest.
 fn marked(text: &str) -> Option<(Style, &str, &str)> {
     if let Some(inside) = text.strip_prefix('{') {
         let (words, rest) = inside.split_once('}')?;

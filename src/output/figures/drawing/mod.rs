@@ -31,7 +31,7 @@ impl Stroke {
     }
 }
 
-/// Inside and outline of a shape.
+/// The inside and the outline of a shape.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Paint {
     /// An opaque inside, as `#rrggbb`.
@@ -43,7 +43,7 @@ pub(super) enum Paint {
 }
 
 impl Paint {
-    /// Colour and opacity of the inside.
+    /// Returns colour and opacity of the inside.
     fn fill(self) -> Option<(&'static str, f64)> {
         match self {
             Self::Filled(colour) => Some((colour, 1.0)),
@@ -76,7 +76,7 @@ pub(super) enum Anchor {
 pub(super) enum Setting {
     Normal,
     Bold,
-    /// Upwards.
+    /// Turned, to be read upwards.
     Upwards,
 }
 
@@ -115,13 +115,13 @@ impl Drawing {
         }
     }
 
-    /// A line through `points`.
+    /// Adds a line through `points`.
     pub fn line(&mut self, points: impl Into<Vec<Place>>, stroke: Stroke) {
         let path = Element::Path(points.into(), false, Paint::Outlined(stroke));
         self.elements.push(path);
     }
 
-    /// A polygon with its corners at `points`.
+    /// Adds a polygon with its corners at `points`.
     pub fn polygon(&mut self, points: impl Into<Vec<Place>>, paint: Paint) {
         let path = Element::Path(points.into(), true, paint);
         self.elements.push(path);
@@ -131,12 +131,12 @@ impl Drawing {
         self.elements.push(Element::Circle(centre, radius, paint));
     }
 
-    /// A line of text.
+    /// Adds a line of text.
     pub fn text(&mut self, words: impl ToString, place: Place, size: f64, anchor: Anchor) {
         self.set(words, place, size, anchor, Setting::Normal);
     }
 
-    /// A line of text, set in bold print or upwards.
+    /// Adds a line of text, set in bold print or upwards.
     pub fn set(
         &mut self,
         words: impl ToString,

@@ -19,7 +19,7 @@ const CONTENT: Ref = Ref::new(4);
 const TINTED: Name = Name(b"Tinted");
 
 impl Drawing {
-    /// The drawing as a PDF: the same bytes for the same drawing on every machine.
+    /// Returns the drawing as a PDF: the same bytes for the same drawing on every machine.
     pub fn pdf(&self) -> Vec<u8> {
         let (width, height) = (self.width as f32 * POINTS, self.height as f32 * POINTS);
         let mut content = Content::new();
@@ -31,7 +31,7 @@ impl Drawing {
     }
 }
 
-/// A PDF of one page.
+/// Returns a PDF of one page.
 fn document(content: Content, size: Rect) -> Vec<u8> {
     let mut pdf = Pdf::new();
     pdf.catalog(CATALOGUE).pages(PAGES);
@@ -111,8 +111,8 @@ fn draw_text(content: &mut Content, text: &Text) {
     content.restore_state();
 }
 
-/// The coordinates of a text of some width: its directions along and up and its start, in pixels to the right and
-/// down.
+/// Returns the coordinate system of a text of some width: its directions along and up and its start, in pixels to the
+/// right and down.
 fn matrix(text: &Text, width: f64) -> [f32; 6] {
     let before = match text.anchor {
         Anchor::Start => 0.0,
@@ -140,7 +140,7 @@ fn trace(content: &mut Content, points: &[Place], closed: bool) {
     }
 }
 
-/// A circle of four Bézier curves, at most 3e-4 of its radius off.
+/// Traces a circle of four Bézier curves, at most 3e-4 of its radius off.
 fn trace_circle(content: &mut Content, [x, y]: Place, radius: f64) {
     let at = |right: f64, down: f64| ((x + radius * right) as f32, (y + radius * down) as f32);
     let (from_x, from_y) = at(1.0, 0.0);
@@ -163,7 +163,7 @@ fn set_stroke(content: &mut Content, stroke: Stroke) {
         .set_dash_pattern(dashes, 0.0);
 }
 
-/// Red, green and blue of `#rrggbb` as parts of one.
+/// Returns red, green and blue of `#rrggbb` as fractions of one.
 fn parts(colour: &str) -> [f32; 3] {
     let part = |at: usize| u8::from_str_radix(colour.get(at..at + 2).unwrap_or("00"), 16);
     [1, 3, 5].map(|at| f32::from(part(at).unwrap_or(0)) / 255.0)

@@ -5,7 +5,7 @@ use super::{Anchor, Drawing, Element, Paint, Place, Setting, Text};
 use crate::output::figures::style::{FONT_FAMILY, INK};
 
 impl Drawing {
-    /// The drawing as SVG: the same bytes for the same drawing.
+    /// Returns the drawing as SVG: the same bytes for the same drawing.
     pub fn svg(&self) -> String {
         let (width, height) = (self.width, self.height);
         let elements: Vec<String> = self.elements.iter().map(element).collect();
@@ -38,7 +38,7 @@ fn path(points: &[Place]) -> String {
     points.collect::<Vec<_>>().join(" ")
 }
 
-/// The attributes of fill and stroke.
+/// Returns the attributes of fill and stroke.
 fn painted(paint: Paint) -> String {
     let mut attributes = match paint.fill() {
         None => " fill=\"none\"".to_owned(),
@@ -106,7 +106,7 @@ fn escaped(text: &str) -> String {
         .replace('>', "&gt;")
 }
 
-/// Hundredths of a pixel, without a trailing zero or a negative one.
+/// Rounds a number of pixels to hundredths, without trailing zeros or a negative zero.
 fn px(value: f64) -> String {
     let rounded = (value * 100.0).round() / 100.0 + 0.0;
     rounded.to_string()

@@ -16,8 +16,8 @@ pub struct StackPanel<'a> {
     pub pair_forces_known: bool,
 }
 
-/// The stack of a run at rest, at its largest force, and in collapse, at about half that force, or else at the end of
-/// the run.
+/// Returns the stack of a run at rest, at its largest force, and in collapse at about half that force, or else at the
+/// end of the run.
 pub fn representative_panels(frames: &Frames) -> Vec<StackPanel<'_>> {
     let all = &frames.frames;
     let force = |index: usize| all[index].wall_force;

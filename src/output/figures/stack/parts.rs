@@ -1,4 +1,4 @@
-//! What pictures of cylinders and of spheres share: arrows, numbers, a legend.
+//! Arrows, numbers and a legend, for pictures of cylinders and of spheres.
 
 use crate::output::figures::drawing::{Anchor, Drawing, Paint, Place, Stroke, text_width};
 use crate::output::figures::style::{KEY_SPACE, NORMAL_FORCE, TANGENTIAL_FORCE};
@@ -27,7 +27,8 @@ pub(super) fn largest_force<'a>(contacts: impl IntoIterator<Item = &'a ContactPo
 /// The left edge of a legend, and the length of its arrows.
 const LEGEND: (f64, f64) = (12.0, 28.0);
 
-/// What the arrows are, on a body of this name, with the x of the first arrow of each entry on one line.
+/// Returns the entries of the legend for a body of this name: the stroke of the arrow, its words, and its x where all
+/// entries stand on one line.
 fn legend_entries(body: &str) -> [(Stroke, String, f64); 2] {
     let tangential =
         format!("tangential force on each {body}, from the contact inwards; numbers in _m_ _g_");
@@ -37,15 +38,15 @@ fn legend_entries(body: &str) -> [(Stroke, String, f64); 2] {
     ]
 }
 
-/// The number of lines of a legend on a drawing of some width: its entries share one if there is room, else the words of
-/// the second are on two.
+/// Returns the number of lines of a legend on a drawing of some width: its entries share one line if there is room,
+/// else the words of the second entry take two.
 pub(super) fn legend_lines(body: &str, width: f64) -> usize {
     let [_, (_, words, left)] = legend_entries(body);
     let end = left + LEGEND.1 + KEY_SPACE + text_width(&words, SMALL);
     if end <= width { 1 } else { 3 }
 }
 
-/// Samples of both kinds of arrows, on a body of this name.
+/// Draws samples of both kinds of arrows, for a body of this name.
 pub(super) fn legend(drawing: &mut Drawing, body: &str, y: f64, width: f64) {
     let one_line = legend_lines(body, width) == 1;
     let mut line = y;
@@ -65,8 +66,8 @@ pub(super) fn legend(drawing: &mut Drawing, body: &str, y: f64, width: f64) {
     }
 }
 
-/// An arrow with a filled head for a normal force, an open one for a tangential force. That of a short arrow shrinks
-/// with it.
+/// Draws an arrow with a filled head for a normal force, an open one for a tangential force. The head of a short
+/// arrow shrinks with it.
 pub(super) fn arrow(drawing: &mut Drawing, [from, to]: [Place; 2], stroke: Stroke) {
     let (dx, dy) = (to[0] - from[0], to[1] - from[1]);
     let length = (dx * dx + dy * dy).sqrt();
@@ -91,7 +92,7 @@ pub(super) fn arrow(drawing: &mut Drawing, [from, to]: [Place; 2], stroke: Strok
     }
 }
 
-/// The letters of normal and tangential force in the paper's figure; `top` is the index of the body on top.
+/// Returns the letters of normal and tangential force in the paper's figure; `top` is the index of the body on top.
 pub(super) fn letters(partner: Partner, top: usize) -> (&'static str, &'static str) {
     match partner {
         Partner::Body(index) if index == top => ("a", "b"),
@@ -105,18 +106,18 @@ pub(super) fn shifted(from: Place, direction: Place, by: f64) -> Place {
     [from[0] + by * direction[0], from[1] + by * direction[1]]
 }
 
-/// The largest of 1, 2, 5 times a power of ten that is not above `value`.
+/// Returns the largest of 1, 2, 5 times a power of ten that is not above `value`.
 pub(super) fn round_below(value: f64) -> f64 {
     let power = libm::exp10(libm::floor(libm::log10(value)));
     let round = [5.0, 2.0, 1.0]
         .into_iter()
         .find(|digit| digit * power <= value * (1.0 + 1e-12));
-    // A power of ten below 1 is not exact; as text and back it is the nearest one.
+    // A power of ten below 1 is not exact; formatting and parsing it gives the nearest double.
     let exact = format!("{:.0e}", round.unwrap_or(1.0) * power);
     exact.parse().unwrap_or(value)
 }
 
-/// Three or four digits, and zero where the force is round-off.
+/// Formats a force in m g with three or four digits, as zero where it is round-off.
 pub(super) fn number(weights: f64) -> String {
     if weights.abs() < 5e-4 {
         return "0".to_owned();

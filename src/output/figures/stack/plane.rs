@@ -27,10 +27,9 @@ const WIDEST: f64 = 20.0;
 const ABOVE_WALL: f64 = 0.3;
 const BELOW_FLOOR: f64 = 0.3;
 
-/// `panels` with forces in m g, so many side by side, above lines of caption. `epsilon` is m g in k_n r.
+/// Draws `panels` with forces in m g, `columns` side by side, above lines of caption. `epsilon` is m g in k_n r.
 ///
-/// The forces are those on each cylinder, from the contact inwards; where two cylinders touch, each has its
-/// own arrows.
+/// The forces are those on each cylinder, from the contact inwards. Where two cylinders touch, each has its own arrows.
 pub(super) fn drawn(
     panels: &[StackPanel],
     columns: usize,
@@ -70,7 +69,7 @@ pub(super) fn drawn(
     drawing
 }
 
-/// The largest horizontal distance of a cylinder's edge from the middle.
+/// Returns the largest horizontal distance of a cylinder's edge from the middle.
 fn reach(frame: &Frame) -> f64 {
     let cylinders = frame.bodies.iter();
     let sides = cylinders.map(|cylinder| cylinder.position[0].abs() + 1.0);
@@ -123,7 +122,7 @@ impl View {
         drawing.text(words, [self.middle, y], size, Anchor::Middle);
     }
 
-    /// Floor and top wall, hatched on their far side.
+    /// Draws floor and top wall, hatched on their far side.
     fn planes(&self, drawing: &mut Drawing, frame: &Frame) {
         let side = self.half_width - 0.15;
         for (height, up) in [(0.0, -1.0), (frame.wall_height, 1.0)] {
@@ -140,11 +139,11 @@ impl View {
         }
     }
 
-    /// The undeformed circle, its number, and its orientation now and at the start.
+    /// Draws a cylinder: the undeformed circle, its number, and its orientation now and at the start.
     fn cylinder(&self, drawing: &mut Drawing, index: usize, cylinder: &PlacedBody) {
         let [x, y, _] = cylinder.position;
         drawing.circle(self.at([x, y]), SCALE, Paint::Tinted(BODY_OUTLINE, BODY));
-        // Directions without a contact at rest.
+        // Directions in which there is no contact at rest.
         let rest = [0.0, 0.8, std::f64::consts::PI - 0.8][index % 3];
         for (angle, stroke) in [
             (rest, ORIENTATION_AT_START),
@@ -160,7 +159,7 @@ impl View {
         drawing.text(index + 1, place, LARGE, Anchor::Middle);
     }
 
-    /// The values of the forces, with the letters of the paper's figure.
+    /// Writes the values of the forces, with the letters of the paper's figure.
     fn values(&self, drawing: &mut Drawing, panel: &StackPanel) {
         let pairs = [(1, Partner::Body(TOP)), (2, Partner::Body(1))];
         let known = pairs.into_iter().filter(|_| panel.pair_forces_known);
@@ -184,7 +183,7 @@ impl View {
         self.centred(drawing, words, below + 10.0, SMALL);
     }
 
-    /// The force on the cylinder, and the opposite one on its partner if that is a cylinder too.
+    /// Draws the force on the cylinder, and the opposite one on its partner if that is a cylinder too.
     fn contact(&self, drawing: &mut Drawing, contact: &ContactPoint) {
         let partners = matches!(contact.partner, Partner::Body(_));
         let sides: &[f64] = if partners { &[1.0, -1.0] } else { &[1.0] };
@@ -227,7 +226,7 @@ impl View {
         }
     }
 
-    /// A round force and its length.
+    /// Draws a bar as long as the arrow of a round force.
     fn scale_bar(&self, drawing: &mut Drawing) {
         let round = round_below(self.largest / self.epsilon);
         let length = round * self.epsilon * (LONGEST_ARROW / self.largest) * SCALE;

@@ -17,37 +17,38 @@ use crate::series::{ContactPoint, Frame, Partner, PlacedBody};
 const SCALE: f64 = 50.0;
 /// Angle in degrees by which the viewer looks down on the floor.
 const ELEVATION: f64 = 20.0;
-/// Angle in degrees by which x points to the back: no sphere of a usual ring then hides another one of it.
+/// Angle in degrees by which x points to the back. With it, no sphere of a usual ring hides another one.
 const TURN: f64 = 40.0;
-/// Length of the arrow of the largest force of a panel, in r: that of the wall, of which each sphere bears a part.
+/// Length of the arrow of the largest force of a panel, in r. It is the force of the wall, of which each sphere bears
+/// a part.
 const LONGEST_ARROW: f64 = 1.3;
 /// Distance of the arrow of a tangential force from the wall, in r.
 const SIDESTEP: f64 = 0.09;
 /// Distance from the tip of an arrow to its letter, in r.
 const LETTER_DISTANCE: f64 = 0.16;
-/// Distances of the number of a sphere from its centre, outwards and upwards, in r: behind the axis, where others may hide the
-/// middle, and in front of it.
+/// Distances of the number of a sphere from its centre, outwards and upwards, in r: for a sphere behind the axis,
+/// where others may hide the middle, and for one in front of it.
 const NUMBER_BEHIND: [f64; 2] = [0.35, 0.55];
 const NUMBER_IN_FRONT: [f64; 2] = [0.55, 0.12];
-/// Smallest and largest half-width of the floor, in r. Spheres beyond have flown apart, and are not seen.
+/// Smallest and largest half-width of the floor, in r. Spheres far beyond it have flown apart, and are not drawn.
 const FLOOR_WIDTHS: (f64, f64) = (2.3, 12.0);
 /// Distance from the spheres to the edge of the floor, in r.
 const FLOOR_EDGE: f64 = 0.2;
 /// Half-width of the part of the top wall that is drawn, in r.
 const WALL_WIDTH: f64 = 1.1;
-/// Directions at which the outline of a shadow or half a great circle is drawn.
+/// Number of points on the outline of a shadow, or on half a great circle.
 const CORNERS: u32 = 48;
-/// Distance of shades from one another, as a part of the radius, and how far each is moved towards the light.
+/// Step in radius from one shade to the next, and how far each is moved towards the light, as parts of the radius.
 const SHADE: (f64, f64) = (0.2, 0.1);
 
-/// The projection in words.
+/// Describes the projection in words.
 pub(super) fn projection() -> String {
     format!(
         "Parallel projection, seen from {ELEVATION}° above the floor, with _x_ turned to the back by {TURN}°; a square of the grid is 1 _r_ wide."
     )
 }
 
-/// `panels` side by side with forces in m g, above lines of caption: the forces of floor and top wall on the spheres.
+/// Draws `panels` side by side above lines of caption, with the forces of floor and top wall on the spheres in m g.
 pub(super) fn drawn(panels: &[StackPanel], stack: &Stack, caption: &[String]) -> Drawing {
     let camera = Camera::new();
     let frames = || panels.iter().map(|panel| panel.frame);
@@ -85,7 +86,7 @@ pub(super) fn drawn(panels: &[StackPanel], stack: &Stack, caption: &[String]) ->
     drawing
 }
 
-/// Half the width of the floor that carries all spheres.
+/// Returns half the width of a floor that carries all spheres.
 fn reach(frame: &Frame) -> f64 {
     let sides = frame.bodies.iter().map(|body| {
         let [x, _, z] = body.position;
@@ -100,7 +101,7 @@ fn is_seen(body: &PlacedBody) -> bool {
     position.all(|component| component.abs() <= 2.0 * most)
 }
 
-/// Forces between spheres would be lost in the picture.
+/// Whether a contact is drawn: forces between spheres would be lost in the picture.
 fn is_drawn(contact: &ContactPoint) -> bool {
     !matches!(contact.partner, Partner::Body(_))
 }
@@ -113,12 +114,12 @@ fn cross([a, b, c]: [f64; 3], [x, y, z]: [f64; 3]) -> [f64; 3] {
     [b * z - c * y, c * x - a * z, a * y - b * x]
 }
 
-/// `from` moved by `share` times `direction`.
+/// Returns `from` moved by `share` times `direction`.
 fn moved(from: [f64; 3], direction: [f64; 3], share: f64) -> [f64; 3] {
     [0, 1, 2].map(|axis: usize| from[axis] + share * direction[axis])
 }
 
-/// `vector` turned by a rotation vector.
+/// Returns `vector` turned by a rotation vector.
 fn rotated(vector: [f64; 3], rotation: [f64; 3]) -> [f64; 3] {
     let angle = libm::sqrt(product(rotation, rotation));
     if angle == 0.0 {
@@ -131,7 +132,7 @@ fn rotated(vector: [f64; 3], rotation: [f64; 3]) -> [f64; 3] {
     moved(turned, axis, (1.0 - cosine) * product(axis, vector))
 }
 
-/// A viewer far away.
+/// The directions of a parallel projection, as seen from far away.
 #[derive(Debug, Clone, Copy)]
 struct Camera {
     /// To the right on the picture.
@@ -156,18 +157,18 @@ impl Camera {
         }
     }
 
-    /// The place of `point` on the picture in r: to the right and upwards from the axis on the floor.
+    /// Returns the place of `point` on the picture in r: to the right and upwards from the axis on the floor.
     fn seen(&self, point: [f64; 3]) -> [f64; 2] {
         [product(point, self.right), product(point, self.up)]
     }
 
-    /// How far a square of this half-width reaches to the side and downwards.
+    /// Returns how far a square of this half-width reaches to the side and downwards.
     fn corner(&self, half_width: f64) -> [f64; 2] {
         let part = |axis: [f64; 3]| half_width * (axis[0].abs() + axis[2].abs());
         [part(self.right), part(self.up)]
     }
 
-    /// The highest place of a frame on the picture.
+    /// Returns the highest place of a frame on the picture.
     fn height(&self, frame: &Frame) -> f64 {
         let tops = frame
             .bodies
@@ -182,9 +183,9 @@ impl Camera {
 struct View<'a> {
     camera: Camera,
     middle: f64,
-    /// Height of the axis on the floor.
+    /// Vertical place, in pixels, at which the axis meets the floor.
     floor: f64,
-    /// Height of the lower edge of the picture.
+    /// Vertical place of the lower edge of the picture, in pixels.
     foot: f64,
     floor_width: f64,
     stack: &'a Stack,
@@ -207,7 +208,7 @@ impl View<'_> {
             number(frame.wall_force / self.stack.epsilon())
         );
         drawing.text(wall, [self.middle, 36.0], MEDIUM, Anchor::Middle);
-        // What is nearer hides what is farther away.
+        // Nearer spheres hide those farther away, so they are drawn later.
         let nearness = |index: &usize| product(frame.bodies[*index].position, self.camera.viewer);
         let mut order: Vec<usize> = (0..frame.bodies.len()).collect();
         order.retain(|&index| is_seen(&frame.bodies[index]));
@@ -242,7 +243,7 @@ impl View<'_> {
         drawing.polygon(edge, Paint::Filled(FLOOR));
     }
 
-    /// The shadow of a sphere in vertical light, unless it has left the floor.
+    /// Draws the shadow of a sphere in vertical light, unless it has left the floor.
     fn shadow(&self, drawing: &mut Drawing, body: &PlacedBody) {
         let [x, _, z] = body.position;
         if x.abs().max(z.abs()) + 1.0 > self.floor_width {
@@ -278,7 +279,7 @@ impl View<'_> {
         drawing.polygon(self.square(WALL_WIDTH, height), Paint::Tinted(PLANE, WALL));
     }
 
-    /// The undeformed sphere, its number, and what was its equator at the start, then and now.
+    /// Draws the undeformed sphere, its number, and the circle that was its equator at the start, then and now.
     fn sphere(&self, drawing: &mut Drawing, index: usize, body: &PlacedBody) {
         let [x, y] = self.at(body.position);
         let (narrower, towards_light) = SHADE;
@@ -307,7 +308,7 @@ impl View<'_> {
         drawing.text(index + 1, place, LARGE, Anchor::Middle);
     }
 
-    /// The half of a great circle about `pole` that faces the viewer.
+    /// Returns the half of a great circle about `pole` that faces the viewer.
     fn great_circle(&self, centre: [f64; 3], pole: [f64; 3]) -> Vec<Place> {
         let viewer = self.camera.viewer;
         let towards = moved(viewer, pole, -product(viewer, pole));
@@ -322,7 +323,7 @@ impl View<'_> {
         points.collect()
     }
 
-    /// The point of contact, and the force on the sphere there, with its letters if it is named.
+    /// Draws the point of contact, and the force on the sphere there, with its letters if it is named.
     fn contact(&self, drawing: &mut Drawing, contact: &ContactPoint, is_named: bool) {
         const POINT_SIZE: f64 = 2.6;
         drawing.circle(self.at(contact.position), POINT_SIZE, Paint::Filled(INK));
@@ -361,7 +362,7 @@ impl View<'_> {
         }
     }
 
-    /// A round force and the length of its arrow where it is vertical.
+    /// Draws a bar as long as the arrow of a round force that is vertical.
     fn scale_bar(&self, drawing: &mut Drawing) {
         let epsilon = self.stack.epsilon();
         let round = round_below(self.largest / epsilon);
@@ -379,7 +380,7 @@ impl View<'_> {
         drawing.text(text, [to + 7.0, y + 4.0], SMALL, Anchor::Start);
     }
 
-    /// The forces on `body`, with the letters of the paper's figure.
+    /// Writes the forces on `body`, with the letters of the paper's figure.
     fn values(&self, drawing: &mut Drawing, panel: &StackPanel, body: usize) {
         let top = self.stack.top();
         let ring: Vec<usize> = self.stack.places().map(|place| place.body).collect();

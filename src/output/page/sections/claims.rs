@@ -62,7 +62,7 @@ pub(crate) fn errata_table(claims: &[ClaimJudgement]) -> DataTable<'_> {
     .rows(numbered(claims).filter(|(_, own)| own.erratum.is_some()))
 }
 
-/// All claims.
+/// Returns the section with all claims.
 pub(super) fn register(claims: &[ClaimJudgement]) -> Section {
     let caption = "Claims, those that do not hold first.";
     let equations = equations(claims);
@@ -99,7 +99,7 @@ fn numbered(claims: &[ClaimJudgement]) -> impl Iterator<Item = Numbered<'_>> {
         .map(|(index, own)| (index + 1, own))
 }
 
-/// By verdict, those that do not hold first, and within that in the order of the paper.
+/// Sorts the claims by verdict, those that do not hold first, and within one verdict in the order of the paper.
 fn sorted(claims: &[ClaimJudgement]) -> Vec<Numbered<'_>> {
     let mut sorted: Vec<Numbered> = numbered(claims).collect();
     sorted.sort_by_key(|(_, own)| VERDICTS.iter().position(|&one| one == own.verdict));
@@ -115,7 +115,8 @@ fn count(claims: &[ClaimJudgement], verdict: ClaimVerdict) -> VerdictCount {
     }
 }
 
-/// `equations` are those of the paper, each with the first claim on it, which carries its anchor.
+/// Returns the claim as the page shows it. `equations` are those of the paper, each with the first claim on it, which
+/// carries its anchor.
 fn on_page((number, own): Numbered, equations: &[PageEquation]) -> PageClaim {
     let claim = &own.claim;
     let first = equations.iter().filter(|known| known.claim == claim.id);
@@ -134,8 +135,8 @@ fn on_page((number, own): Numbered, equations: &[PageEquation]) -> PageClaim {
     }
 }
 
-/// The evidence, the deviation beside that of a second verdict, what the words of a claim that does not simply hold are taken to
-/// allow, and a full stop before its sources.
+/// Formats the evidence, and a full stop before the sources. A deviation follows if there is a second verdict, by
+/// published data. If the claim does not simply hold, what its words are taken to allow follows too.
 fn evidence(own: &ClaimJudgement) -> String {
     let measure = own.measure.as_ref();
     let criterion = criterion(measure.filter(|_| own.as_published.is_some()));
@@ -156,7 +157,7 @@ fn evidence(own: &ClaimJudgement) -> String {
     sentences.collect::<Vec<_>>().join(" ")
 }
 
-/// The deviation, and up to which a claim holds, where that is more than the round-off of formulas.
+/// States the deviation and the bound up to which a claim holds, if that bound is above the round-off of formulas.
 fn criterion(measure: Option<&Measure>) -> Option<String> {
     let Measure { deviation, bound } = *measure.filter(|own| own.bound > ROUND_OFF)?;
     Some(format!(
@@ -166,7 +167,7 @@ fn criterion(measure: Option<&Measure>) -> Option<String> {
     ))
 }
 
-/// The verdict by the published data, and its evidence.
+/// States the verdict by the published data, and its evidence.
 fn as_published(own: &ClaimJudgement) -> Option<String> {
     let second = own.as_published.as_ref()?;
     let words = in_words(second.verdict);
@@ -182,7 +183,7 @@ fn ends_a_sentence(text: &str) -> bool {
     text.ends_with('.') || text.ends_with(".)")
 }
 
-/// The displayed equations with the first claim on each.
+/// Lists the displayed equations with the first claim on each.
 fn equations(claims: &[ClaimJudgement]) -> Vec<PageEquation> {
     let mut equations: Vec<PageEquation> = Vec::new();
     for own in claims {

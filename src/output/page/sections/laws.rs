@@ -1,4 +1,4 @@
-//! What other contact laws than the paper's do to its stack.
+//! The effect of other contact laws on the paper's stack.
 
 use super::super::document::{Block, PageTable, Section};
 use super::tolerances::rows;

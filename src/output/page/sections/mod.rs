@@ -20,7 +20,7 @@ use crate::output::{DataTable, law_conventions};
 use crate::paper::claims::ClaimJudgement;
 use crate::paper::reproduction::Reproduction;
 
-/// The tables that only the report has, without rows.
+/// Returns the tables that only the report has, without rows.
 pub(crate) fn declared_tables() -> Vec<DataTable<'static>> {
     vec![
         summary::theories(&[]),

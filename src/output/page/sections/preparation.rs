@@ -35,7 +35,7 @@ pub(super) fn section(reproduction: &Reproduction) -> Section {
     Section::new("preparation", "Preparation of the stack", blocks)
 }
 
-/// A* of every stack, and its effect on the yield force.
+/// Returns the table of A* of every stack, and its effect on the yield force.
 pub(crate) fn critical(studies: &[PreparationStudy]) -> DataTable<'_> {
     Columns::<&PreparationStudy>::new(
         "critical_push",
@@ -71,7 +71,7 @@ pub(crate) fn critical(studies: &[PreparationStudy]) -> DataTable<'_> {
     .rows(studies)
 }
 
-/// c(A) and F(A) of every code.
+/// Returns the table of c(A) and F(A) of every code.
 pub(crate) fn preparations(studies: &[PreparationStudy]) -> DataTable<'_> {
     let rows = studies.iter().flat_map(|study| {
         let rows = study.rows.iter();

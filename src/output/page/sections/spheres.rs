@@ -33,7 +33,7 @@ pub(super) fn section(reproduction: &Reproduction) -> Section {
     Section::new("spheres", "Spheres in three dimensions", blocks)
 }
 
-/// What comes before the floor slips, in a few words.
+/// Names the event that ends a curve, in a few words.
 fn ending(event: Event) -> &'static str {
     match event {
         Event::FloorSlip => "floor slips",
@@ -44,7 +44,7 @@ fn ending(event: Event) -> &'static str {
     }
 }
 
-/// Geometry and limits of each stack.
+/// Returns the table of geometry and limits of each stack.
 pub(crate) fn limits(curves: &[BodiesCurve]) -> DataTable<'_> {
     let critical = |own: &&BodiesCurve| own.stack.ring().critical_friction;
     Columns::<&BodiesCurve>::new(

@@ -46,12 +46,12 @@ pub(super) fn section(reproduction: &Reproduction, claims: &[ClaimJudgement]) ->
     Section::new("summary", "Summary", blocks)
 }
 
-/// A size in percent.
+/// Formats a size in percent, without a sign.
 fn unsigned(size: f64) -> String {
     format!("{:.2} %", 100.0 * size)
 }
 
-/// How good the paper's theory is, and whether it becomes exact.
+/// States how good the paper's theory is, and whether it becomes exact.
 fn of_theory(curves: &Curves) -> Option<String> {
     let error = |point: &TheoryPoint| point.error(point.perturbation);
     let largest = |above: bool| {
@@ -118,7 +118,7 @@ fn of_codes(reproduction: &Reproduction) -> String {
     )
 }
 
-/// What the published figures show, and how their numbers were reproduced.
+/// States what the published figures show, and how their numbers were reproduced.
 fn of_published(published: &Published) -> String {
     let farthest = |figure: &str| {
         let own = published.forces.iter();
@@ -141,7 +141,7 @@ fn of_published(published: &Published) -> String {
     )
 }
 
-/// Where the judged rows come from, and every row that is not judged.
+/// States where the judged rows come from, counts their verdicts, and names every inconclusive row.
 fn of_rows(reproduction: &Reproduction) -> String {
     let rows: Vec<&Judgement> = reproduction.judged_rows().collect();
     let recorded = rows.iter().filter(|row| row.is_recorded()).count();
@@ -201,7 +201,8 @@ fn of_scaling(reproduction: &Reproduction) -> Option<String> {
     ))
 }
 
-/// The spread of the conventions at the stack where it is largest, and the exponent.
+/// States how many rows with Hertz contacts agree, the spread of conventions at [`SPREAD`], where it is largest, and
+/// the exponent.
 fn of_laws(reproduction: &Reproduction) -> Option<String> {
     let laws = &reproduction.laws;
     let judged = |row: &&Judgement| (row.mu(), row.stiffness()) == SPREAD;
@@ -257,7 +258,8 @@ fn of_convergence(reproduction: &Reproduction) -> Option<String> {
     ))
 }
 
-/// Largest errors of the paper's theories over the frictions of its figure, stiffness by stiffness.
+/// Returns the table of the largest errors of the paper's theories over the frictions of its figure, one row per
+/// stiffness.
 pub(crate) fn theories(curve: &[TheoryPoint]) -> DataTable<'_> {
     let largest = |stiffness: f64, above: bool, theory: fn(&TheoryPoint) -> Option<f64>| {
         let own = curve.iter().filter(move |point| {
@@ -298,7 +300,7 @@ pub(crate) fn theories(curve: &[TheoryPoint]) -> DataTable<'_> {
     .rows(PAPER_STIFFNESSES)
 }
 
-/// Some points of Fig. 2(a), theory and codes side by side.
+/// Returns the table of some points of Fig. 2(a), theory and codes side by side.
 pub(crate) fn points(judgements: &[Judgement]) -> DataTable<'_> {
     let stacks = PAPER_STIFFNESSES.into_iter().flat_map(|stiffness| {
         let frictions = [0.2, CRITICAL_FRICTION, 0.3, 0.4].into_iter();

@@ -9,7 +9,7 @@ use crate::paper::reproduction::{Exponent, Reproduction};
 use crate::study::yield_force::{Evidence, Judgement};
 use crate::study::{MAX_TOLERANCE, MIN_TOLERANCE, Verdict};
 
-/// The rows of one code, counted.
+/// The agreement of one code: counts of its rows, and their largest errors.
 pub(super) struct Agreement {
     pub code: Code,
     pub agreeing: usize,
@@ -21,7 +21,7 @@ pub(super) struct Agreement {
 }
 
 impl Agreement {
-    /// One for every code with rows among `judgements`.
+    /// Returns the agreement of every code with rows among `judgements`.
     pub fn of(judgements: &[Judgement]) -> Vec<Self> {
         let codes = Code::distinct(judgements.iter().map(|row| &row.code));
         let all = codes.into_iter().map(|code| {
@@ -106,7 +106,7 @@ pub(super) fn section(reproduction: &Reproduction) -> Section {
     Section::new("tolerances", title, blocks)
 }
 
-/// The limits of the kinds of evidence.
+/// Lists what each kind of evidence does not prove.
 fn evidence() -> Block {
     let tiers = Evidence::ALL.map(|tier| {
         let (name, limit) = (tier.as_str(), tier.does_not_prove());

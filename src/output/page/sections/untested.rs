@@ -69,7 +69,7 @@ fn recorded<'a>(judgements: impl Iterator<Item = &'a Judgement>) -> Option<Strin
     })
 }
 
-/// Rows without a judgement, each with its reason.
+/// Lists the rows without a judgement, each with its reason.
 fn unjudged(reproduction: &Reproduction) -> Vec<String> {
     let judged = |row: &&Judgement| matches!(row.verdict(), Verdict::Agrees | Verdict::Differs);
     let open = reproduction.judged_rows().filter(|row| !judged(row));

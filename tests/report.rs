@@ -7,10 +7,9 @@ mod numbers;
 mod page;
 
 use common::browser::{browser, inspected, laid_out};
-use common::{AUTHORS_FORCE, Bench, files_below, json, json_rows, small_checkout};
+use common::{AUTHORS_FORCE, Bench, files_below, json_rows, small_checkout};
 use std::collections::HashMap;
 use std::fs;
-use std::path::PathBuf;
 use std::process::Output;
 use std::sync::OnceLock;
 use tristack::model::Stack;
@@ -151,23 +150,6 @@ fn two_bodies_of_the_table_of_spheres_are_cylinders_whose_springs_turn() {
         let rigid = number(row, "bodies") - 1.0;
         assert!(0.9 * rigid < below && below < rigid && rigid < critical && critical < above);
     }
-}
-
-#[test]
-fn metadata_name_every_file_and_its_digest() {
-    let metadata = json(&file("ro-crate-metadata.json"));
-    let graph = metadata["@graph"].as_array().expect("a graph");
-    let described = graph.iter().filter(|entry| entry["@type"] == "File");
-    let mut names: Vec<PathBuf> = Vec::new();
-    for entry in described {
-        let name = entry["@id"].as_str().expect("a name");
-        let content = fs::read(report().0.path("report").join(name)).expect("a file");
-        assert_eq!(entry["sha256"], tristack::model::sha256_hex(&content));
-        names.push(name.into());
-    }
-    names.push("ro-crate-metadata.json".into());
-    names.sort();
-    assert_eq!(names, files_below(&report().0.path("report")));
 }
 
 #[test]

@@ -23,8 +23,8 @@ const MOST_ROWS: usize = 10;
 /// Write the reproducibility report for the paper
 ///
 /// Runs everything behind the paper's figures and some further ones, tests every statement of the paper, and
-/// writes report.html, gallery.html (all figures), report.md, claims.json, junit.xml, ro-crate-metadata.json,
-/// tables/ and figures/. Finished runs are reused, and recorded runs stand in for codes that are not installed.
+/// writes report.html, gallery.html (all figures), report.md, claims.json, junit.xml, tables/ and
+/// figures/. Finished runs are reused, and recorded runs stand in for codes that are not installed.
 #[derive(Debug, Args)]
 #[command(after_help = "Example: tristack report --out report")]
 pub(super) struct Arguments {
@@ -113,9 +113,7 @@ fn layout() -> Layout {
         "gallery.html",
         "report.md",
         "junit.xml",
-        "ro-crate-metadata.json",
         "tables/*.csv",
-        "tables/*.tex",
         "figures/*.svg",
         "figures/*.pdf",
     ];

@@ -1,18 +1,13 @@
-//! The page of the report as people see it: links, mathematics, filters, widths, print, LaTeX.
+//! The page of the report as people see it: links, mathematics, filters, widths, print.
 
 use super::common::Bench;
 use super::common::browser::{browser, inspected, laid_out};
 use super::{file, message, report};
 use std::collections::BTreeSet;
-use std::path::Path;
 use std::process::Command;
 
-/// In the environment: LaTeX must be there.
-const LATEX_REQUIRED: &str = "TRISTACK_REQUIRE_LATEX";
 /// Pages of the printed report.
 const MOST_PAGES: usize = 20;
-/// By how much a line may reach beyond its column, in points.
-const OVERFULL: f64 = 2.0;
 
 /// The values of an attribute in a page.
 fn attributes<'a>(page: &'a str, name: &str) -> Vec<&'a str> {
@@ -86,7 +81,7 @@ fn every_claim_figure_table_and_equation_has_an_anchor_and_a_number() {
             "figure {number}"
         );
     }
-    let tables = super::files_below(&report().0.path("report/tables")).len() / 2;
+    let tables = super::files_below(&report().0.path("report/tables")).len();
     assert_eq!(count("table-"), tables);
     for number in 1..=tables {
         assert!(
@@ -236,56 +231,6 @@ fn the_last_lines_say_why_the_exit_status_is_what_it_is() {
 /// Whether `last` are the last lines of `all` but for the path of the page.
 fn laid(all: &str, last: &str) -> bool {
     all.ends_with(last) && last.lines().count() < 15
-}
-
-#[test]
-fn latex_compiles_every_table_without_a_line_that_is_too_long() {
-    let Some(compiler) = latex() else { return };
-    let bench = Bench::without_codes();
-    let tables = report().0.path("report/tables");
-    // Longtables find their widths in a second and third run.
-    for _ in 0..3 {
-        let output = Command::new(&compiler)
-            .args([
-                "-interaction=nonstopmode",
-                "-halt-on-error",
-                "-output-directory",
-            ])
-            .arg(bench.path(""))
-            .arg("all.tex")
-            .current_dir(&tables)
-            .output()
-            .expect("LaTeX starts");
-        let log = String::from_utf8_lossy(&output.stdout).into_owned();
-        let end = log.len().saturating_sub(3000);
-        assert!(
-            output.status.success(),
-            "{}",
-            &log[log.ceil_char_boundary(end)..]
-        );
-    }
-    let log = std::fs::read(bench.path("all.log")).expect("a log");
-    let log = String::from_utf8_lossy(&log);
-    let overfull = log.lines().filter(|line| {
-        let points = line.strip_prefix("Overfull \\hbox (");
-        let points = points.and_then(|rest| rest.split("pt").next()?.parse::<f64>().ok());
-        points.is_some_and(|points| points > OVERFULL)
-    });
-    let overfull: Vec<&str> = overfull.collect();
-    assert!(overfull.is_empty(), "{overfull:#?}");
-    let pages = bench.path("all.pdf");
-    assert!(Path::new(&pages).is_file());
-}
-
-fn latex() -> Option<std::path::PathBuf> {
-    let path = std::env::var_os("PATH").unwrap_or_default();
-    let found = std::env::split_paths(&path).map(|directory| directory.join("pdflatex"));
-    let found = found.into_iter().find(|path| path.is_file());
-    if found.is_none() {
-        assert!(std::env::var_os(LATEX_REQUIRED).is_none(), "no pdflatex");
-        eprintln!("skipped: no pdflatex");
-    }
-    found
 }
 
 #[test]

@@ -6,21 +6,16 @@ mod html;
 mod junit;
 mod markdown;
 mod references;
-mod ro_crate;
 mod sections;
 
 pub(crate) use sections::{Origin, declared_tables};
 
 use crate::output::figures::Figure;
 use crate::output::json;
-use crate::output::table::document_of;
 use crate::paper::claims::ClaimJudgement;
 use crate::paper::reproduction::Reproduction;
 use document::Document;
 use rayon::iter::{IntoParallelRefIterator, ParallelIterator};
-
-/// Name of the LaTeX document with all tables.
-const ALL_TABLES: &str = "all";
 
 /// A file of the report.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -58,25 +53,14 @@ pub(crate) fn report_files(
     ];
     files.extend(tables(&document));
     files.extend(figures(&document));
-    let crate_ = ro_crate::ro_crate(&document, &files, &reproduction.provenances, origin);
-    files.push(ReportFile::new("ro-crate-metadata.json", crate_));
     files
 }
 
 fn tables(document: &Document) -> Vec<ReportFile> {
-    let names = document.tables().map(|data| data.name);
-    let all = ReportFile::new(format!("tables/{ALL_TABLES}.tex"), document_of(names));
-    let tables = document.tables().flat_map(|data| {
-        let name = data.name;
-        [
-            ReportFile::new(format!("tables/{name}.csv"), data.csv.clone()),
-            ReportFile::new(
-                format!("tables/{name}.tex"),
-                data.table.latex(name, &data.caption),
-            ),
-        ]
-    });
-    tables.chain([all]).collect()
+    let tables = document.tables();
+    let files =
+        tables.map(|data| ReportFile::new(format!("tables/{}.csv", data.name), data.csv.clone()));
+    files.collect()
 }
 
 fn figures(document: &Document) -> Vec<ReportFile> {

@@ -2,7 +2,6 @@
 
 mod columns;
 mod data;
-mod latex;
 mod look;
 mod screen;
 mod shown;
@@ -13,7 +12,6 @@ mod value;
 pub(crate) use columns::Columns;
 pub use data::DataTable;
 pub(crate) use data::json;
-pub(crate) use latex::document_of;
 pub(crate) use screen::wrapped_to_screen;
 pub use shown::Table;
 pub(crate) use value::Value;

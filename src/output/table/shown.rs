@@ -1,6 +1,5 @@
 //! A table of text cells for people, in every format.
 
-use super::latex::{LatexColumn, latex};
 use super::look::{Limits, TerminalLook};
 use crate::output::text::{html_attribute, html_text, markdown_cell};
 use comfy_table::{
@@ -109,17 +108,6 @@ impl Table {
             .map(|line| line.trim_end().to_owned())
             .collect();
         lines.join("\n") + "\n"
-    }
-
-    /// Formats the table as LaTeX, with a caption and the label `tab:` followed by `name`.
-    pub(crate) fn latex(&self, name: &str, caption: &str) -> String {
-        let columns = self.headings.iter().zip(&self.numeric).enumerate();
-        let columns = columns.map(|(column, (heading, &numeric))| LatexColumn {
-            heading,
-            numeric,
-            cells: self.rows.iter().map(|row| row[column].as_str()).collect(),
-        });
-        latex(name, caption, &columns.collect::<Vec<_>>())
     }
 
     /// Formats the table as HTML. If it has long texts, each row becomes a block of lines on a narrow screen.

@@ -1,10 +1,11 @@
 //! Micro-tests in the native DEM.
 
+use super::body::Body;
 use super::contact::{ContactModel, ConventionalModel, SpringDashpot};
 use super::geometry::Facing;
 use super::geometry::{Geometry, Plane, Space};
 use super::power_law::PowerLaw;
-use super::scene::{Body, Scene};
+use super::scene::Scene;
 use super::wall::PlaneWall;
 use crate::model::{ContactTest, Drive, MotionInSpace};
 use crate::series::{Motion, MotionRow, RowInSpace, SeriesError};

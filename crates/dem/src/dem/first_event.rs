@@ -5,8 +5,8 @@
 //! g(t) = g x/(1 + x), where x grows by a constant factor per step. Every force of the stack then grows by the same
 //! factor, and inertia changes the ratio of any two forces by the square of the rate.
 
+use super::body::Body;
 use super::contact::{Contact, SpringDashpot};
-use super::scene::Body;
 use super::stack_scene::{FLOOR, LEFT, RIGHT, StackScene, TOP, TOP_WALL};
 use crate::model::{
     Case, ContactConvention, HistoryUpdate, Preparation, Protocol, Sampling, Stack, sha256_hex,

@@ -4,10 +4,12 @@
 //! The stepping uses only +, −, ×, ÷ and √, in a fixed order and without fused multiply-add, so that its results have
 //! the same bits on every machine.
 
+mod body;
 mod contact;
 mod contact_run;
 mod contact_state;
 mod double_double;
+mod equations;
 mod first_event;
 mod frames;
 mod geometry;
@@ -24,6 +26,7 @@ mod stack_run;
 mod stack_scene;
 mod wall;
 
+pub use body::{Body, Cylinder, Load, Sphere};
 pub use contact::{Contact, ContactForce, ContactModel, Counterpart, Spring, SpringDashpot};
 pub use contact_run::{run_contact_test, run_contact_test_in, run_contact_test_with};
 pub use first_event::{EventRun, Loading, Observation, Until};
@@ -34,7 +37,7 @@ pub use packing::{Material, PYRAMID_FLOOR, Packing, run_pyramid};
 pub use power_law::{LoadedSpring, PowerLaw};
 pub use published::{ForceSampling, GivenStart, PublishedForces, PublishedRun};
 pub use real::{Composite, Real, Work};
-pub use scene::{Body, Cylinder, Load, Scene, Sphere};
+pub use scene::Scene;
 pub use stack_run::compress_stack_precisely;
 pub use stack_run::{compress_stack, compress_stack_with};
 pub use wall::PlaneWall;

@@ -1,8 +1,9 @@
-//! Cylinders or spheres between plane walls, and one leapfrog step for all of them.
+//! Cylinders or spheres between plane walls, and the loops of a step over their contacts and bodies.
 
-use super::contact::{Contact, ContactForce, ContactModel, Counterpart, SpringDashpot};
+use super::body::{Body, Load};
+use super::contact::{Contact, ContactForce, ContactModel, SpringDashpot};
 use super::contact_state::{ContactState, Touch};
-use super::geometry::{Geometry, Linear, Plane, Space};
+use super::geometry::{Geometry, Plane};
 use super::real::{Composite, Real};
 use super::wall::PlaneWall;
 use crate::model::CYLINDER_INERTIA;
@@ -39,117 +40,6 @@ macro_rules! each_body {
     };
 }
 
-/// A cylinder or sphere of unit mass and radius. Velocities belong to the half step before the positions.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Body<R: Real = f64, G: Geometry<R> = Plane> {
-    /// Centre.
-    pub position: G::Vector,
-    /// Rotation, counter-clockwise; in space the time integral of the angular velocity.
-    pub angle: G::Rotation,
-    /// Velocity of the centre.
-    pub velocity: G::Vector,
-    /// Angular velocity, counter-clockwise.
-    pub spin: G::Rotation,
-}
-
-/// A body in the plane.
-pub type Cylinder<R = f64> = Body<R, Plane>;
-
-/// A body in space.
-pub type Sphere<R = f64> = Body<R, Space>;
-
-impl<R: Real, G: Geometry<R>> Composite<R> for Body<R, G> {
-    #[inline(always)]
-    fn visit(&mut self, other: &Self, visit: &mut impl FnMut(&mut R, &R)) {
-        self.position.visit(&other.position, visit);
-        self.angle.visit(&other.angle, visit);
-        self.velocity.visit(&other.velocity, visit);
-        self.spin.visit(&other.spin, visit);
-    }
-}
-
-impl<R: Real> Cylinder<R> {
-    /// A cylinder at rest.
-    pub fn at(x: R, y: R) -> Self {
-        Self::resting([x, y])
-    }
-}
-
-impl<R: Real, G: Geometry<R>> Body<R, G> {
-    /// A body at rest.
-    pub fn resting(position: G::Vector) -> Self {
-        let zero = [G::components(position)[0].like(0.0); 3];
-        Self {
-            position,
-            angle: G::rotation(zero),
-            velocity: G::vector(zero),
-            spin: G::rotation(zero),
-        }
-    }
-
-    /// Kicks the velocities over a whole step, then drifts the positions.
-    #[inline(always)]
-    pub(super) fn advance(&mut self, load: &Load<R, G>, moment_of_inertia: R, time_step: R) {
-        self.velocity = self.velocity.plus(load.force.times(time_step));
-        self.position = self.position.plus(self.velocity.times(time_step));
-        let kick = G::kick(load.torque, moment_of_inertia, time_step);
-        self.spin = self.spin.plus(kick);
-        self.angle = self.angle.plus(self.spin.times(time_step));
-    }
-
-    /// Returns the difference of two centres, and its square.
-    #[inline(always)]
-    pub(super) fn apart([i, j]: [&Self; 2]) -> (G::Vector, R) {
-        let apart = i.position.minus(j.position);
-        (apart, G::along(apart, apart))
-    }
-}
-
-impl<R: Real, G: Geometry<R>> Contact<R, G> {
-    /// The contact of two bodies, from the difference of their positions and its square.
-    #[inline(always)]
-    pub(super) fn of_pair(
-        [i, j]: [&Body<R, G>; 2],
-        (apart, square): (G::Vector, R),
-        friction: R,
-        time_step: R,
-    ) -> Self {
-        let distance = square.sqrt();
-        let normal = G::direction(apart, distance);
-        let velocity = i.velocity.minus(j.velocity);
-        Self {
-            counterpart: Counterpart::Cylinder,
-            normal,
-            overlap: distance.like(2.0) - distance,
-            separation_speed: G::along(normal, velocity),
-            sliding_speed: G::tangential(normal, velocity),
-            spin: i.spin.plus(j.spin),
-            friction,
-            time_step,
-        }
-    }
-
-    /// The contact of a body with a wall.
-    #[inline(always)]
-    pub(super) fn with_wall(
-        body: &Body<R, G>,
-        plane: &PlaneWall<R>,
-        overlap: R,
-        time_step: R,
-    ) -> Self {
-        Self {
-            counterpart: Counterpart::Wall,
-            normal: plane.facing.normal::<R, G>(overlap),
-            overlap,
-            separation_speed: G::along_wall(plane.facing, body.velocity) - plane.speed,
-            sliding_speed: G::tangential_to_wall(plane.facing, body.velocity),
-            spin: body.spin,
-            friction: plane.friction,
-            time_step,
-        }
-    }
-}
-
 /// Cylinders or spheres, walls and the state of all their contacts. The numbers of bodies and walls are known at
 /// compile time, so that the compiler keeps values in registers as far as possible.
 #[derive(Debug, Clone)]
@@ -183,23 +73,6 @@ pub struct Scene<
     pair_contacts: [[ContactState<R, Model::Memory, G>; CYLINDERS]; CYLINDERS],
     wall_contacts: [[ContactState<R, Model::Memory, G>; CYLINDERS]; WALLS],
     loads: [Load<R, G>; CYLINDERS],
-}
-
-/// Force and torque on a cylinder.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Load<R: Real = f64, G: Geometry<R> = Plane> {
-    /// Force.
-    pub force: G::Vector,
-    /// Torque about the centre, counter-clockwise.
-    pub torque: G::Rotation,
-}
-
-impl<R: Real, G: Geometry<R>> Composite<R> for Load<R, G> {
-    #[inline(always)]
-    fn visit(&mut self, other: &Self, visit: &mut impl FnMut(&mut R, &R)) {
-        self.force.visit(&other.force, visit);
-        self.torque.visit(&other.torque, visit);
-    }
 }
 
 impl<const CYLINDERS: usize, const WALLS: usize, R, Model, G> Scene<CYLINDERS, WALLS, R, Model, G>
@@ -405,52 +278,6 @@ where
         let exerted = state.evaluate::<KEEP, _>(&self.model, &contact, touches);
         let force = G::put_together_at_wall(plane.facing, exerted.normal, exerted.tangential);
         load.add(touches, force, exerted.torque(contact.normal));
-    }
-}
-
-impl<R: Real, G: Geometry<R>> ContactForce<R, G> {
-    /// Adds the force and its torque to the loads of the two bodies of a contact with this normal.
-    #[inline(always)]
-    pub(super) fn act_on_pair(
-        &self,
-        normal: G::Vector,
-        touches: Touch<R>,
-        [first, second]: [&mut Load<R, G>; 2],
-    ) {
-        let (force, torque) = (self.as_vector(normal), self.torque(normal));
-        first.add(touches, force, torque);
-        second.react(touches, force, torque);
-    }
-}
-
-impl<R: Real, G: Geometry<R>> Load<R, G> {
-    #[inline(always)]
-    pub(super) fn weight(gravity: R) -> Self {
-        let zero = gravity.like(0.0);
-        Self {
-            force: G::vector([zero, -gravity, zero]),
-            torque: G::rotation([zero; 3]),
-        }
-    }
-
-    /// Adds a force and a torque where bodies touch.
-    #[inline(always)]
-    pub(super) fn add(&mut self, touches: Touch<R>, force: G::Vector, torque: G::Rotation) {
-        let sum = Self {
-            force: self.force.plus(force),
-            torque: self.torque.plus(torque),
-        };
-        *self = touches.choose(sum, *self);
-    }
-
-    /// Adds the opposite force and the same torque where bodies touch.
-    #[inline(always)]
-    fn react(&mut self, touches: Touch<R>, force: G::Vector, torque: G::Rotation) {
-        let sum = Self {
-            force: self.force.minus(force),
-            torque: self.torque.plus(torque),
-        };
-        *self = touches.choose(sum, *self);
     }
 }
 

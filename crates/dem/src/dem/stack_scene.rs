@@ -1,11 +1,12 @@
 //! The stack as a scene: three cylinders in the plane, or spheres in space.
 
+use super::body::Body;
 use super::contact::{ContactModel, ConventionalModel};
 use super::geometry::Facing;
 use super::geometry::{Geometry, Space};
 use super::loading::Action;
 use super::real::{Composite, Real};
-use super::scene::{Body, Scene};
+use super::scene::Scene;
 use super::wall::PlaneWall;
 use crate::model::{Case, MOST_BODIES, Preparation, Stack};
 use crate::series::{Placement, Sample};

@@ -3,9 +3,9 @@
 use super::pairs::PairList;
 use super::skin::Skin;
 use super::walls::{WallContact, beside_wall};
+use crate::dem::body::{Body, Load};
 use crate::dem::contact::{ContactForce, SpringDashpot};
 use crate::dem::geometry::{Geometry, Plane};
-use crate::dem::scene::{Body, Load};
 use crate::dem::wall::PlaneWall;
 use crate::model::{ContactConvention, Stack};
 

@@ -1,10 +1,10 @@
 //! Evaluation of the forces of all contacts.
 
 use super::bodies::Packing;
+use crate::dem::body::{Body, Load};
 use crate::dem::contact::{Contact, ContactForce, ContactModel, Spring};
 use crate::dem::contact_state::Touch;
 use crate::dem::geometry::Geometry;
-use crate::dem::scene::{Body, Load};
 
 impl<G: Geometry<f64>> Packing<G> {
     /// Evaluates every contact at the present positions and advances the tangential springs to them.

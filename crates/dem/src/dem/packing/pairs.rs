@@ -1,9 +1,9 @@
 //! Verlet list: the pairs of bodies that may touch, with their tangential springs.
 
 use super::cells::CellList;
+use crate::dem::body::Body;
 use crate::dem::contact::Spring;
 use crate::dem::geometry::Geometry;
-use crate::dem::scene::Body;
 
 /// All pairs within some distance, each once, grouped by their first body, which has the higher index. Both indices
 /// ascend, so that the order of sums over pairs depends on the indices alone.

@@ -1,8 +1,8 @@
 //! A pyramid as a packing.
 
 use super::bodies::{Material, Packing};
+use crate::dem::body::Cylinder;
 use crate::dem::geometry::Facing;
-use crate::dem::scene::Cylinder;
 use crate::dem::wall::PlaneWall;
 use crate::model::Pyramid;
 use crate::series::{PyramidRun, SeriesError};

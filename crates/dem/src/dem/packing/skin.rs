@@ -1,7 +1,7 @@
 //! The motion after which a neighbour list is no longer complete.
 
+use crate::dem::body::Body;
 use crate::dem::geometry::{Geometry, Plane};
-use crate::dem::scene::Body;
 use crate::dem::wall::PlaneWall;
 
 /// A list of everything within a skin is complete until a body has moved by half the skin since the list was built.

@@ -1,8 +1,8 @@
 //! The bodies that may touch a wall, with the springs and forces of these contacts.
 
+use crate::dem::body::Body;
 use crate::dem::contact::{ContactForce, Spring};
 use crate::dem::geometry::Geometry;
-use crate::dem::scene::Body;
 use crate::dem::wall::PlaneWall;
 
 /// A cylinder or sphere near a wall.

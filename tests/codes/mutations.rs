@@ -41,6 +41,11 @@ enum Mutation {
     FloorSpringGrows,
     PairSpringGrows,
     NormalForceGrows,
+    NormalSpringHighByAThousandth,
+    TransportHighByAThousandth,
+    LimitHighByAThousandth,
+    NormalDampingHighByAThousandth,
+    TangentialDampingHighByAThousandth,
     /// A time-step effect of third order, which is no fault in the limit of small steps; not in the table.
     FloorMovesByItsSine,
     /// A term of third order in the speed, which no step is small enough for; not in the table.
@@ -63,6 +68,15 @@ const MUTATIONS: [Mutation; 15] = [
     Mutation::FloorSpringGrows,
     Mutation::PairSpringGrows,
     Mutation::NormalForceGrows,
+];
+
+/// One coefficient of each term of the contact law, multiplied by 1.001.
+const THOUSANDTHS: [Mutation; 5] = [
+    Mutation::NormalSpringHighByAThousandth,
+    Mutation::TransportHighByAThousandth,
+    Mutation::LimitHighByAThousandth,
+    Mutation::NormalDampingHighByAThousandth,
+    Mutation::TangentialDampingHighByAThousandth,
 ];
 
 /// The paper's contact law, written a second time, with one line changed.
@@ -91,11 +105,13 @@ impl Twin {
             normal_damping: match mutation {
                 Mutation::SignOfNormalDamping => -law.damping_normal,
                 Mutation::TwiceTheNormalDamping => 2.0 * law.damping_normal,
+                Mutation::NormalDampingHighByAThousandth => 1.001 * law.damping_normal,
                 _ => law.damping_normal,
             },
             damping: match mutation {
                 Mutation::SignOfTangentialDamping => -law.damping_tangential,
                 Mutation::TwiceTheTangentialDamping => 2.0 * law.damping_tangential,
+                Mutation::TangentialDampingHighByAThousandth => 1.001 * law.damping_tangential,
                 _ => law.damping_tangential,
             },
             mutation,
@@ -142,11 +158,13 @@ impl ContactModel<f64> for Twin {
         };
         let elastic = match self.mutation {
             Mutation::NormalForceGrows => contact.overlap * root,
+            Mutation::NormalSpringHighByAThousandth => 1.001 * contact.overlap,
             _ => contact.overlap,
         };
         let normal = elastic - self.normal_damping * contact.separation_speed;
         let friction = match self.mutation {
             Mutation::FrictionOnePercentHigh => 1.01 * contact.friction,
+            Mutation::LimitHighByAThousandth => 1.001 * contact.friction,
             _ => contact.friction,
         };
         let limit = friction
@@ -156,6 +174,9 @@ impl ContactModel<f64> for Twin {
             };
         if self.mutation == Mutation::SpringDoesNotTurn {
             memory.length = memory.vector[1] * nx - memory.vector[0] * ny;
+        }
+        if self.mutation == Mutation::TransportHighByAThousandth {
+            memory.length *= 1.001;
         }
         let turn = contact.spin * contact.time_step;
         let further = match self.mutation {
@@ -194,23 +215,30 @@ struct TwinEngine {
     name: Code,
     identity: Identity,
     mutation: Mutation,
+    /// Whether it is right in the probe.
+    probes_rightly: bool,
 }
 
 impl TwinEngine {
     fn selected(mutation: Mutation) -> SelectedCode {
+        Self::selected_as(Code::native(), mutation, false)
+    }
+
+    fn selected_as(name: Code, mutation: Mutation, probes_rightly: bool) -> SelectedCode {
         SelectedCode {
-            name: Code::native(),
+            name: name.clone(),
             code: Some(Box::new(Self {
-                name: Code::native(),
                 identity: Identity {
-                    code: "native".to_owned(),
+                    code: name.to_string(),
                     version: format!("{mutation:?}"),
                     package: None,
                     program_hash: None,
                     files_hash: None,
                     witness: None,
                 },
+                name,
                 mutation,
+                probes_rightly,
             })),
         }
     }
@@ -266,7 +294,11 @@ impl InstalledCode for TwinEngine {
             let motion = match test.space {
                 Some(_) => run_contact_test(test),
                 None => {
-                    let twin = Twin::new(&test.convention, test.stiffness_ratio, self.mutation);
+                    let mutation = match self.probes_rightly {
+                        true => Mutation::None,
+                        false => self.mutation,
+                    };
+                    let twin = Twin::new(&test.convention, test.stiffness_ratio, mutation);
                     run_contact_test_with(test, twin)
                 }
             };
@@ -488,6 +520,53 @@ fn every_changed_line_is_noticed() {
         table += &format!("{mutation:?} | {seen} | {alone}\n");
     }
     insta::assert_snapshot!(table);
+}
+
+/// The verdict on the series of a stack beside those of the native code, for a code that is right in the probe.
+fn series_beside_native(mutation: Mutation) -> Verdict {
+    let example = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/python");
+    let example = Code::in_folder(&example, None).expect("a code");
+    let settled = example.as_declared().expect("it declares everything");
+    let native = SelectedCode {
+        code: Code::native().find(),
+        name: Code::native(),
+    };
+    let codes = [native, TwinEngine::selected_as(example, mutation, true)];
+    let stack = Stack::paper(0.3, 1e2);
+    let plan = plan_trajectory(&settled, &stack, ContactConvention::TURNING);
+    with_settings(|settings| {
+        Campaign::new(&codes, settings, &Silent).carry_out(vec![plan])[0].verdict()
+    })
+}
+
+/// Whether the restitution of an impact is off by more than what is known of it.
+fn restitution_is_off(mutation: Mutation) -> bool {
+    let codes = [TwinEngine::selected(mutation)];
+    let plans = plan_impacts(&SettledCode::native(), ContactConvention::TURNING);
+    let judged =
+        with_settings(|settings| Campaign::new(&codes, settings, &Silent).carry_out(plans));
+    let mut findings = judged
+        .iter()
+        .filter_map(|own| own.finding.as_ref()?.as_ref());
+    findings.any(|own| own.error.abs() > own.budget.total().max(MIN_TOLERANCE))
+}
+
+/// By the probe; in a series, beside the native one; and in a number that theory knows, the yield force or the
+/// restitution of an impact.
+#[test]
+fn a_thousandth_of_any_coefficient_is_seen_in_probe_series_and_theory() {
+    assert_eq!(series_beside_native(Mutation::None), Verdict::Agrees);
+    assert!(!restitution_is_off(Mutation::None));
+    for mutation in THOUSANDTHS {
+        let properties = differing_properties(mutation);
+        let series = series_beside_native(mutation);
+        let force = crosscheck_alone(&crosscheck(mutation));
+        let restitution = restitution_is_off(mutation);
+        eprintln!("{mutation:?}: {properties:?}, {series:?}, {force}, {restitution}");
+        assert_ne!(properties, Vec::<String>::new(), "{mutation:?}");
+        assert_eq!(series, Verdict::Differs, "{mutation:?}");
+        assert!(force != "agrees" || restitution, "{mutation:?}");
+    }
 }
 
 #[test]

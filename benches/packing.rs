@@ -1,4 +1,5 @@
-//! Steps of some four thousand cylinders in the plane, and of as many spheres in space: time of a step, bodies per second.
+//! Steps of some four thousand cylinders in the plane, and of as many spheres in space: time of a step, bodies per second;
+//! and of three cylinders, as a packing and as a scene, which gives the same bits.
 
 #[path = "../tests/physics/packing/heap.rs"]
 #[allow(dead_code)] // Tests use all of it.
@@ -6,7 +7,7 @@ mod heap;
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use heap::Heap;
-use tristack::dem::{Geometry, Material, Packing, Sphere};
+use tristack::dem::{Facing, Geometry, Material, Packing, PlaneWall, Scene, Sphere, SpringDashpot};
 use tristack::model::{ContactConvention, Pyramid, Stack};
 
 const GRAVITY: f64 = 1e-5;
@@ -53,5 +54,31 @@ fn spheres(criterion: &mut Criterion) {
     time(criterion, "spheres", packing);
 }
 
-criterion_group!(benches, cylinders, spheres);
+/// The same pyramid of three between its three walls, with and without a list of pairs.
+fn three(criterion: &mut Criterion) {
+    let pyramid = Pyramid::touching(2, 1e5, ContactConvention::TURNING);
+    let mut packing = Packing::pyramid(&pyramid);
+    let law = SpringDashpot::like(1.0, &pyramid.convention, pyramid.groups.stiffness_ratio);
+    let wall = |facing, offset, friction| PlaneWall {
+        facing,
+        offset,
+        speed: 0.0,
+        friction,
+    };
+    let aside = -pyramid.half_width();
+    let walls = [
+        wall(Facing::Up, 0.0, pyramid.groups.floor_friction),
+        wall(Facing::Right, aside, 0.0),
+        wall(Facing::Left, aside, 0.0),
+    ];
+    let cylinders = packing.cylinders().try_into().expect("three cylinders");
+    let mut scene = Scene::<3, 3>::new(cylinders, walls, law, pyramid.time_step);
+    scene.cylinder_friction = pyramid.groups.cylinder_friction;
+    (packing.gravity, scene.gravity) = (GRAVITY, GRAVITY);
+    let mut group = criterion.benchmark_group("three cylinders");
+    group.bench_function("packing", |bencher| bencher.iter(|| step(&mut packing)));
+    group.bench_function("scene", |bencher| bencher.iter(|| scene.steps(1)));
+}
+
+criterion_group!(benches, three, cylinders, spheres);
 criterion_main!(benches);

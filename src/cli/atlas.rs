@@ -10,10 +10,10 @@ use crate::study::atlas::Atlas;
 use clap::Args;
 use std::path::PathBuf;
 
-/// Write a site of what every code, version and style means by a contact, from passports
+/// Build a static site that compares contact conventions across codes and versions
 ///
-/// The site is static and fetches nothing: a matrix of codes and properties, a page a program with what changed from version
-/// to version, a page a property, a page and a badge a passport. Nothing is run.
+/// The site is made from passports and fetches nothing: a matrix of codes and properties, one page per program with its
+/// changes between versions, one page per property, and a page and a badge per passport. No code is run.
 #[derive(Debug, Args)]
 #[command(after_help = "Example: tristack atlas --out atlas, then open atlas/index.html")]
 pub(super) struct Arguments {

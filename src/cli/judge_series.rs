@@ -27,7 +27,7 @@ const ROUNDING: f64 = 1e-9;
 #[derive(Debug, Clone, Args)]
 pub(super) struct SeriesArguments {
     /// Series of one stack (CSV, docs/formats.md) instead of a plan: three or more at different wall speeds, which are
-    /// extrapolated, or one, of whose speed theory knows what it adds
+    /// extrapolated to none, or a single one, less what its speed adds according to theory
     #[arg(long, value_name = "FILE", num_args = 1.., requires_all = ["speeds", "mu", "stiffness"], conflicts_with_all = ["only_failures", "summary"])]
     pub series: Vec<PathBuf>,
     /// Their wall speeds in r sqrt(k_n/m), in the order of the files, separated by commas

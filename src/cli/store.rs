@@ -50,7 +50,7 @@ struct ListArguments {
     format: Format,
 }
 
-/// Show one entry: what it is of, how it was made, its files
+/// Show one entry: what it holds, how it was made, and its files
 #[derive(Debug, Args)]
 struct ShowArguments {
     /// Address of the entry, or the beginning of it; all entries with this address are shown, whatever their kinds
@@ -64,7 +64,7 @@ struct ShowArguments {
 
 /// Remove entries from the store, while no other tristack uses it
 ///
-/// What is removed fits everything that is asked for. Damaged results in quarantine go only with `--kind quarantine`.
+/// An entry is removed if it matches every option given. Damaged results in quarantine go only with `--kind quarantine`.
 /// Nothing is removed that tristack has not put there, and no link is followed.
 #[derive(Debug, Args)]
 #[command(
@@ -98,8 +98,8 @@ struct Choice {
     /// Entries older than an age, such as 12h, 30d or 2w, or written before a date such as 2026-01-31 (UTC)
     #[arg(long, value_name = "AGE", value_parser = moment, allow_hyphen_values = true)]
     older_than: Option<SystemTime>,
-    /// Entries that no run of today has the address of, because tristack, the code or its deck have changed since; of
-    /// codes that are not installed none
+    /// Entries that would not be reused today, because tristack, the code or its deck has changed; never entries of codes
+    /// that are not installed
     #[arg(long)]
     outdated: bool,
 }
@@ -123,8 +123,12 @@ impl Choice {
             before: self.older_than,
             outdated: self.outdated,
         };
-        // Broken folders are reported by other commands.
-        selection.of(contents, &mut CodesOfToday::new(known_codes().0))
+        // Only outdated entries depend on the codes. Broken folders are reported by other commands.
+        let known = match self.outdated {
+            true => known_codes().0,
+            false => Vec::new(),
+        };
+        selection.of(contents, &mut CodesOfToday::new(known))
     }
 }
 

@@ -25,9 +25,9 @@ pub(in crate::cli) struct ConventionOptions {
     /// Arm coefficient r1 of the surface velocity at these contacts [default: as --floor-arm]
     #[arg(long, value_name = "R1", value_parser = number)]
     pub floor_kinematic_arm: Option<f64>,
-    /// Change of the tangential spring when a contact turns; of these, `fixed`, a vector that nothing turns, has a yield force
-    /// of its own, and the others share one [default: that of the code; where nothing says which, `fixed` for the paper's
-    /// two cylinders with linear springs and arms 0, and else `rotated`]
+    /// What becomes of the tangential spring when a contact turns. With `fixed` it is a vector that never turns, which has
+    /// a yield force of its own; all other rules share one [default: that of the code; if it does not say, `fixed` for the
+    /// paper's two cylinders with linear springs and arms 0, otherwise `rotated`]
     #[arg(long, value_parser = history_update(), value_name = "RULE")]
     history_update: Option<HistoryUpdate>,
     #[command(flatten)]

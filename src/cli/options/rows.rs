@@ -14,7 +14,7 @@ const SUITES: &str = "tristack";
 /// What is printed of the rows of a crosscheck.
 #[derive(Debug, Clone, Args)]
 pub(in crate::cli) struct RowOptions {
-    /// Print only the rows that neither agree nor have no yield where none is expected; files have all rows
+    /// Print only rows that do not pass; a row passes if it agrees, or has no yield as expected. Files have all rows
     #[arg(long, conflicts_with = "summary")]
     only_failures: bool,
     /// Print how many rows of each code have which verdict and where its largest error is, instead of the rows

@@ -83,6 +83,7 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
         command: command.to_owned(),
         recorded: absent.map(|selected| selected.name.clone()).collect(),
         literal: arguments.literal,
+        lock_file: include_bytes!("../../Cargo.lock"),
     };
     let found = conclude(&reproduced, &claims);
     let written = out.write(|| {

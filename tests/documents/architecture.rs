@@ -89,7 +89,6 @@ fn no_folder_points_back() {
         ("crates/dem/src", &["model", "series", "dem"]),
         ("crates/harness/src", &["files", "code", "runs", "study"]),
         ("crates/paper/src", &["published", "reproduction", "claims"]),
-        ("src", &["output", "cli"]),
     ] {
         for (position, folder) in order.iter().enumerate() {
             for file in rust_files(&root.join(sources).join(folder)) {

@@ -93,6 +93,7 @@ fn programs_are_started_by_the_runner_and_its_guard_and_none_is_a_shell() {
         "crates/dem/src",
         "crates/harness/src",
         "crates/paper/src",
+        "crates/output/src",
     ];
     let folders = folders.into_iter();
     for (path, text) in folders.flat_map(|folder| files(folder, "rs")) {

@@ -9,7 +9,9 @@ use tristack::dem::{
     Composite, Contact, ContactForce, ContactModel, Counterpart, compress_stack,
     compress_stack_with, run_contact_test, run_contact_test_with,
 };
-use tristack::model::{Arms, Case, ContactConvention, ContactTest, HistoryUpdate, Pyramid, Stack};
+use tristack::model::{
+    Arms, Case, ContactConvention, ContactTest, HistoryUpdate, Power, Pyramid, Stack,
+};
 use tristack::runs::Store;
 use tristack::runs::{Progress, Recorded, SelectedCode, Settings};
 use tristack::series::{Motion, PyramidRun, Series};
@@ -18,7 +20,7 @@ use tristack::study::convention::{Findings, passport, probe_all};
 use tristack::study::impact::plan_impacts;
 use tristack::study::preparation::plan_preparation;
 use tristack::study::regimes::{SurveyPlan, survey};
-use tristack::study::trajectory::plan_trajectory;
+use tristack::study::trajectory::{plan_trajectory, trajectory_stack};
 use tristack::study::yield_force::{Judgement, plan};
 use tristack::study::{Campaign, Judged, Verdict};
 
@@ -195,18 +197,16 @@ impl ContactModel<f64> for Twin {
             memory.vector[0] -= growth * ny;
             memory.vector[1] += growth * nx;
         }
-        ContactForce {
-            normal,
-            tangential: match (sticks, trial < 0.0) {
-                (true, _) => trial,
-                (false, true) => -limit,
-                (false, false) => limit,
-            },
-            arm: match self.mutation {
-                Mutation::HalfTheTorqueOnPairs if is_pair => 0.5 * arm,
-                _ => arm,
-            },
-        }
+        let tangential = match (sticks, trial < 0.0) {
+            (true, _) => trial,
+            (false, true) => -limit,
+            (false, false) => limit,
+        };
+        let arm = match self.mutation {
+            Mutation::HalfTheTorqueOnPairs if is_pair => 0.5 * arm,
+            _ => arm,
+        };
+        ContactForce::new(normal, tangential, arm)
     }
 }
 
@@ -532,10 +532,16 @@ fn series_beside_native(mutation: Mutation) -> Verdict {
         name: Code::native(),
     };
     let codes = [native, TwinEngine::selected_as(example, mutation, true)];
-    let stack = Stack::paper(0.3, 1e2);
+    let stack = trajectory_stack(2, Power::Linear);
     let plan = plan_trajectory(&settled, &stack, ContactConvention::TURNING);
     with_settings(|settings| {
-        Campaign::new(&codes, settings, &Silent).carry_out(vec![plan])[0].verdict()
+        let judged = Campaign::new(&codes, settings, &Silent).carry_out(vec![plan]);
+        eprintln!(
+            "NOTES {mutation:?} {:?} {}",
+            judged[0].notes(),
+            judged[0].grounds.reason()
+        );
+        judged[0].verdict()
     })
 }
 

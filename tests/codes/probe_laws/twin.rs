@@ -120,10 +120,6 @@ impl ContactModel<f64> for Twin {
             // At the frictionless wall both are 0.
             false => trial.map(|part| part * (limit / size.max(f64::MIN_POSITIVE))),
         };
-        ContactForce {
-            normal: normal + lift,
-            tangential,
-            arm,
-        }
+        ContactForce::new(normal + lift, tangential, arm)
     }
 }

@@ -1,4 +1,4 @@
-//! Cylinders and spheres, and the load on them.
+//! Cylinders and spheres, the load on them, and where they touch.
 
 use super::geometry::{Geometry, Plane, Space};
 use super::real::{Composite, Real};
@@ -66,5 +66,22 @@ impl<R: Real, G: Geometry<R>> Composite<R> for Load<R, G> {
     fn visit(&mut self, other: &Self, visit: &mut impl FnMut(&mut R, &R)) {
         self.force.visit(&other.force, visit);
         self.torque.visit(&other.torque, visit);
+    }
+}
+
+/// The lanes in which two bodies touch.
+#[derive(Clone, Copy)]
+pub(super) enum Touch<R: Real> {
+    Everywhere,
+    Where(R::Mask),
+}
+
+impl<R: Real> Touch<R> {
+    #[inline(always)]
+    pub(super) fn choose<C: Composite<R>>(self, yes: C, no: C) -> C {
+        match self {
+            Self::Everywhere => yes,
+            Self::Where(mask) => yes.or_where_not(mask, &no),
+        }
     }
 }

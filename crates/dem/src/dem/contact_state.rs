@@ -1,5 +1,6 @@
 //! The state of a contact between steps, in lanes of which perhaps only some touch.
 
+use super::body::Touch;
 use super::contact::{Contact, ContactForce, ContactModel};
 use super::geometry::{Geometry, Plane};
 use super::real::{Composite, Real};
@@ -54,23 +55,6 @@ impl<R: Real, Memory: Copy + Composite<R>, G: Geometry<R>> ContactState<R, Memor
     ) {
         if KEEP || self.loaded {
             *self = Self::initial(model, number);
-        }
-    }
-}
-
-/// The lanes in which two bodies touch.
-#[derive(Clone, Copy)]
-pub(super) enum Touch<R: Real> {
-    Everywhere,
-    Where(R::Mask),
-}
-
-impl<R: Real> Touch<R> {
-    #[inline(always)]
-    pub(super) fn choose<C: Composite<R>>(self, yes: C, no: C) -> C {
-        match self {
-            Self::Everywhere => yes,
-            Self::Where(mask) => yes.or_where_not(mask, &no),
         }
     }
 }

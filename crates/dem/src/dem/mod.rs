@@ -9,7 +9,6 @@ mod contact;
 mod contact_run;
 mod contact_state;
 mod double_double;
-mod equations;
 mod first_event;
 mod frames;
 mod geometry;

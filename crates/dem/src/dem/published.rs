@@ -259,11 +259,11 @@ impl<R: Real> ContactModel<R, Plane> for PublishedLaw<R> {
             )
         };
         *spring = next;
-        ContactForce {
-            normal: pressing + Plane::along(normal, force),
-            tangential: Plane::tangential(normal, force),
-            arm: zero.like(1.0),
-        }
+        ContactForce::new(
+            pressing + Plane::along(normal, force),
+            Plane::tangential(normal, force),
+            zero.like(1.0),
+        )
     }
 }
 

@@ -1,8 +1,8 @@
 //! Cylinders or spheres between plane walls, and the loops of a step over their contacts and bodies.
 
-use super::body::{Body, Load};
+use super::body::{Body, Load, Touch};
 use super::contact::{Contact, ContactForce, ContactModel, SpringDashpot};
-use super::contact_state::{ContactState, Touch};
+use super::contact_state::ContactState;
 use super::geometry::{Geometry, Plane};
 use super::real::{Composite, Real};
 use super::wall::PlaneWall;

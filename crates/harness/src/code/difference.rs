@@ -22,9 +22,12 @@ pub(super) fn difference(
         value.expect("a convention has only named fields and finite numbers")
     };
     let (own, theirs) = (values(own), values(other));
-    let mut entries = own.as_object()?.iter();
-    let (key, value) = entries.find(|(key, value)| theirs[*key] != **value)?;
-    Some((key.clone(), plain(value), plain(&theirs[key])))
+    // A key that one of them leaves out, as it may at its default, is `null` there.
+    let mut keys = [&own, &theirs]
+        .into_iter()
+        .flat_map(|value| value.as_object().into_iter().flatten());
+    let (key, _) = keys.find(|(key, _)| own[*key] != theirs[*key])?;
+    Some((key.clone(), plain(&own[key]), plain(&theirs[key])))
 }
 
 /// A value as it is written in a case file, without quotation marks.

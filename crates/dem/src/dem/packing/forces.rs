@@ -1,9 +1,8 @@
 //! Evaluation of the forces of all contacts.
 
 use super::bodies::Packing;
-use crate::dem::body::{Body, Load};
+use crate::dem::body::{Body, Load, Touch};
 use crate::dem::contact::{Contact, ContactForce, ContactModel, Spring};
-use crate::dem::contact_state::Touch;
 use crate::dem::geometry::Geometry;
 
 impl<G: Geometry<f64>> Packing<G> {

@@ -3,7 +3,7 @@
 use super::evidence::{Evidence, MOVED, ROUNDING, SAME};
 use super::micro::{self, Micro};
 use super::report::{Grade, Item, Outcome};
-use super::stack::{self, at_first_sight, in_the_stack};
+use super::stack::{self, at_first_sight};
 use super::table::usual;
 use super::{equations, search, written};
 use crate::model::{Case, ContactConvention};
@@ -131,15 +131,7 @@ fn located(
         _ => {
             let convention = known.stacks[0].twin.convention;
             let stack = Evidence::of_stack(series, case, convention, false);
-            // If only values are written wrongly, the forces of the stack tell nothing further.
-            let place: Vec<String> = stack.beginning().into_iter().collect();
-            let moves = place.iter().any(|own| own.starts_with(MOVED));
-            let further = if moves {
-                in_the_stack(series, case)
-            } else {
-                Vec::new()
-            };
-            (place.into_iter().chain(further).collect(), false)
+            (stack.beginning().into_iter().collect(), false)
         }
     }
 }
@@ -265,7 +257,6 @@ impl Known {
             .cloned()
             .chain(stacks.iter().cloned())
             .collect();
-        let only = |law| if law { &motions[..] } else { &all[..] };
         causes = search::explanations(&all);
         if !law {
             let of_contacts = causes.iter_mut().filter(|own| search::is_of_contacts(own));
@@ -275,15 +266,9 @@ impl Known {
             causes = search::explanations(&motions);
         }
         if causes.is_empty() && !law && is_exact {
-            // If few columns are off, they are written wrongly, and no fitted size explains them.
+            // If few columns are off, they are written wrongly.
             let place = stacks[0].beginning();
             causes.extend(place.filter(|own| !own.starts_with(MOVED)));
-        }
-        if causes.is_empty() {
-            causes = search::fitted(only(law), &all);
-        }
-        if causes.is_empty() && law {
-            causes = search::fitted(&motions, &motions);
         }
         if causes.is_empty() && !law {
             causes = search::explanations(&stacks);

@@ -4,7 +4,7 @@
 use super::factor::{is_about, of_friction};
 use super::reaction::action_and_reaction;
 use super::report::{Grade, Item};
-use super::table::{meanings, of_property};
+use super::table::meanings;
 use crate::code::{Code, ConventionKey};
 use crate::model::ContactConvention;
 use crate::runs::{Answer, ProbeRecord};
@@ -220,7 +220,7 @@ fn causes_of(name: &str, found: f64, asked: f64) -> Vec<String> {
         (_, own) if own == "mass" || own.ends_with("_stiffness") || own.ends_with("_damping") => {
             meanings(name, found, asked, asked, |_| f64::NAN)
         }
-        (_, own) => of_property(own, found),
+        _ => Vec::new(),
     };
     let named = texts.into_iter().map(|text| format!("{name}: {text}"));
     named.collect()

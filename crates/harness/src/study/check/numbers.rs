@@ -33,7 +33,6 @@ numbers! {
     friction = 0.0, "μ.";
     sliding_friction = 1.0, "Factor on μ of a contact that slides.";
     exists = 1.0, "Factor on both forces.";
-    gap = 0.0, "Is taken off the overlap.";
     by_diameter = 0.0, "Flag: the normal is the distance of the centres over 2 r, and no unit vector.";
     lever = 1.0, "Radius in torque and surface velocity.";
     exponent = 1.0, "Power of the overlap in the spring's force.";
@@ -75,7 +74,6 @@ numbers! {
     limit_before = 0.0, "Flag: μ times the normal force of the step before.";
     damps_approach = 0.0, "Flag: only surfaces that approach are damped along the normal.";
     damping_exponent = 0.0, "Power of the overlap in the normal damping.";
-    rolling = 0.0, "Rolling friction: torque over normal force.";
     pulls = 0.0, "Flag: a contact that opens goes on pulling.";
     shares_spring = 0.0, "Flag: all contacts of its kind have one tangential spring.";
     touches = 0.0, "Flag: surfaces that just touch are a contact.";
@@ -108,7 +106,6 @@ numbers! {
     wall_speed = 0.0, "Speed of the top wall.";
     wall_drift = 1.0, "Factor on the movement of the top wall.";
     wall_per_step = 0.0, "Flag: it moves by its speed in every step.";
-    wall_start = 0.0, "Height of its start above cylinder 1 at rest.";
     wall_ahead = 0.0, "Steps by which it is ahead of the bodies.";
     wall_from_start = 0.0, "Flag: it starts above the stack as it was before gravity.";
     wall_per_body = 0.0, "Flag: it moves once for every body in a step.";
@@ -123,9 +120,6 @@ numbers! {
     kept_forces = 0.0, "Part of the forces of the step before that is left in those of a step.";
     kept_torques = 0.0, "The same of the torques.";
     old_forces = 0.0, "Flag: bodies are moved by the forces of the step before.";
-    damping = 0.0, "Part of the velocities that is lost in every step.";
-    damping_rate = 0.0, "Part of the velocities that is lost in a unit of time.";
-    spin_damping_rate = 0.0, "The same of the spins.";
     local_damping = 0.0, "Part of the force that opposes the velocity (Cundall).";
     damps_rest = 0.0, "Flag: that of a body at rest counts as if it moved in the positive direction.";
     twice_at_rows = 0.0, "Flag: the forces are computed twice at the steps of rows, and the springs grow twice.";
@@ -133,7 +127,4 @@ numbers! {
     no_spin = 0.0, "Flag: the cylinders do not turn.";
     one_spin = 0.0, "Flag: only cylinder 1 turns.";
     single_precision = 0.0, "Flag: positions and velocities are kept in single precision.";
-    spread = 0.0, "Distance by which the bottom cylinders lie too far apart at first.";
-    enlarged = 0.0, "Part by which all initial positions are too large.";
-    lift = 0.0, "Height by which cylinder 1 lies too high at first.";
 }

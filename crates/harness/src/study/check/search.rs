@@ -3,20 +3,13 @@
 
 use super::evidence::{Evidence, ROUNDING};
 use super::numbers::{OfContact, OfRun};
-use super::table::{Flags, MOST_CAUSES, Quantity, Size, TABLE, Value};
+use super::table::{Flags, MOST_CAUSES, Quantity, TABLE, Value};
 use super::twin::{FLOOR, PAIRS, Twin, WALL};
 use rayon::prelude::*;
 use std::ops::Range;
 
 /// Mistakes up to this many times the distance of the best one count as fitting equally well.
 const AS_WELL: f64 = 3.0;
-/// Steps of the golden-section search, before which [`FIRST_TRIES`] values are tried on either side of 1.
-const REFINEMENTS: usize = 56;
-/// A number that after this many steps still leaves the fraction [`HOPELESS`] of the distance is given up.
-const FEW_REFINEMENTS: usize = 14;
-const HOPELESS: f64 = 0.5;
-const FIRST_TRIES: i32 = 8;
-const LARGEST_FACTOR: f64 = 30.0;
 
 /// Numbers of the task that a code may take for one another.
 const PARAMETERS: [&str; 12] = [
@@ -76,7 +69,6 @@ const EXCHANGED: [(&str, &str); 3] = [
 enum Act<'a> {
     Replace(&'a Value),
     Parameter(&'a str),
-    Factor(f64),
     Set(f64),
 }
 
@@ -122,7 +114,6 @@ impl Act<'_> {
                 number => task.of(number),
             }),
             Self::Parameter(name) => task.of(name),
-            Self::Factor(factor) => asked * factor,
             Self::Set(value) => *value,
         }
     }
@@ -159,7 +150,7 @@ const ONE_SIDED: [Range<usize>; 4] = [0..1, 1..2, 4..5, 5..6];
 const KINDS: usize = 5;
 const AT_SINGLE: usize = 4;
 
-/// Returns all single mistakes that need no fitted size.
+/// Returns all mistakes.
 fn faults() -> Vec<Fault<'static>> {
     let table = &*TABLE;
     // A mistake with a name of its own comes before values that have the same effect.
@@ -252,12 +243,6 @@ pub(super) fn explanations(evidence: &[Evidence]) -> Vec<String> {
     best(single.collect())
 }
 
-/// Fits every number to `evidence`, and returns those that explain all of `whole`.
-pub(super) fn fitted(evidence: &[Evidence], whole: &[Evidence]) -> Vec<String> {
-    let sizes = sizes().into_par_iter();
-    best(sizes.filter_map(|own| own.fit(evidence, whole)).collect())
-}
-
 /// Returns the best of some mistakes, which come with their distances.
 fn best(mut fitting: Vec<(f64, String)>) -> Vec<String> {
     fitting.sort_by(|left, right| left.0.total_cmp(&right.0));
@@ -302,146 +287,6 @@ fn score(evidence: &[Evidence], fault: &Fault) -> Option<f64> {
     Some(worst)
 }
 
-/// A number to be fitted.
-struct Fitted {
-    text: String,
-    contacts: Range<usize>,
-    fields: Vec<&'static str>,
-    /// Range of a size; `None` for a factor.
-    range: Option<[f64; 2]>,
-}
-
-fn sizes() -> Vec<Fitted> {
-    let table = &*TABLE;
-    let kinds = PLACES[..KINDS].iter();
-    let at_kinds = kinds.flat_map(|(at, contacts)| {
-        let factors = table.contact.iter().map(move |own| {
-            let fields = own.fields.iter().map(String::as_str).collect();
-            Fitted {
-                text: format!("{} {at}", own.is),
-                contacts: contacts.clone(),
-                fields,
-                range: None,
-            }
-        });
-        let sizes = table.size.iter().filter(|size| size.contact);
-        factors.chain(sizes.map(move |own| own.fitted(Some(at), contacts.clone())))
-    });
-    let factors = table.run.iter().map(|own| {
-        let fields = own.fields.iter().map(String::as_str).collect();
-        Fitted {
-            text: own.is.clone(),
-            contacts: 0..0,
-            fields,
-            range: None,
-        }
-    });
-    let sizes = table.size.iter().filter(|size| !size.contact);
-    at_kinds
-        .chain(factors)
-        .chain(sizes.map(|own| own.fitted(None, 0..0)))
-        .collect()
-}
-
-impl Size {
-    fn fitted(&'static self, at: Option<&str>, contacts: Range<usize>) -> Fitted {
-        let text = at.map_or_else(|| self.is.clone(), |at| format!("{}, {at}", self.is));
-        Fitted {
-            text,
-            contacts,
-            fields: vec![&self.field],
-            range: Some([self.from, self.to]),
-        }
-    }
-}
-
-impl Fitted {
-    fn fault(&self, place: f64) -> Fault<'_> {
-        let act = match self.range {
-            // The cube samples small sizes more densely.
-            Some([from, to]) => Act::Set(from + (to - from) * place * place * place),
-            None => Act::Factor((place * LARGEST_FACTOR.ln()).exp()),
-        };
-        let acts = self.fields.iter().map(|field| (*field, act)).collect();
-        Fault {
-            text: String::new(),
-            contacts: self.contacts.clone(),
-            acts,
-        }
-    }
-
-    /// Fits the value with which the twin comes nearest to `evidence`; `None` if that does not explain `whole`.
-    fn fit(&self, evidence: &[Evidence], whole: &[Evidence]) -> Option<(f64, String)> {
-        // Evidence that is as expected must stay so.
-        let (off, right): (Vec<&Evidence>, Vec<&Evidence>) =
-            evidence.iter().partition(|own| own.is_off());
-        let tried = self.fault(0.3);
-        let is_relative = self.fields != ["friction"] || self.range.is_none();
-        if is_relative
-            && right
-                .iter()
-                .any(|own| own.distance(|twin| tried.make(twin), own.allowed()) > own.allowed())
-        {
-            return None;
-        }
-        let distance = |place: f64, limit: f64| {
-            let fault = self.fault(place);
-            off.iter().fold(0.0, |worst: f64, own| match worst > limit {
-                true => worst,
-                false => worst
-                    .max(own.distance(|twin| fault.make(twin), limit * own.before) / own.before),
-            })
-        };
-        let least = if self.range.is_some() {
-            0
-        } else {
-            -FIRST_TRIES
-        };
-        let places = (least..=FIRST_TRIES).map(|index| f64::from(index) / f64::from(FIRST_TRIES));
-        let nearest = places.fold((f64::INFINITY, 0.0), |best, place| {
-            let own = distance(place, best.0);
-            if own < best.0 { (own, place) } else { best }
-        });
-        let spacing = 1.0 / f64::from(FIRST_TRIES);
-        let place = minimum(
-            &|place| distance(place, f64::INFINITY),
-            nearest.1 - spacing,
-            nearest.1 + spacing,
-        )?;
-        let fault = self.fault(place);
-        let rest = score(whole, &fault)?;
-        let told = match fault.acts.first()? {
-            (_, Act::Set(value)) => format!("{} {value:.6}", self.text),
-            (_, Act::Factor(factor)) => format!("{}: {factor:.6} times what it must be", self.text),
-            _ => self.text.clone(),
-        };
-        Some((rest, told))
-    }
-}
-
-/// Finds the place between `low` and `high` at which `value`, a fraction of the distance before, is smallest, by a
-/// golden-section search; `None` if it stays large.
-fn minimum(value: &dyn Fn(f64) -> f64, mut low: f64, mut high: f64) -> Option<f64> {
-    let golden = 0.5 * (5f64.sqrt() - 1.0);
-    let (mut left, mut right) = (high - golden * (high - low), low + golden * (high - low));
-    let (mut of_left, mut of_right) = (value(left), value(right));
-    for refinement in 0..REFINEMENTS {
-        if refinement == FEW_REFINEMENTS && of_left.min(of_right) > HOPELESS {
-            return None;
-        }
-        if of_left < of_right {
-            (high, right, of_right) = (right, left, of_left);
-            left = high - golden * (high - low);
-            of_left = value(left);
-        } else {
-            (low, left, of_left) = (left, right, of_right);
-            right = low + golden * (high - low);
-            of_right = value(right);
-        }
-    }
-    Some(0.5 * (low + high))
-}
-
 #[cfg(test)]
 mod tests {
     use super::super::{ask_native, case};
@@ -451,10 +296,6 @@ mod tests {
     #[test]
     fn every_field_in_the_table_is_a_number_of_the_twin() {
         let mut twin = Twin::of_stack(&case(ContactConvention::TURNING));
-        let fitted = sizes();
-        let fields = fitted
-            .iter()
-            .flat_map(|own| own.fields.iter().map(|field| (*field, &own.contacts)));
         let faults = faults();
         let acts = faults.iter().flat_map(|fault| {
             fault
@@ -462,7 +303,7 @@ mod tests {
                 .iter()
                 .map(|(field, _)| (*field, &fault.contacts))
         });
-        for (field, contacts) in fields.chain(acts) {
+        for (field, contacts) in acts {
             let at_contact =
                 |twin: &mut Twin| twin.contacts[contacts.start].by_name(field).is_some();
             let is_known = twin.run.by_name(field).is_some()

@@ -197,63 +197,6 @@ fn digits(series: &Series, case: &Case) -> Item {
     )
 }
 
-/// Says where the weight that is borne and the movement of the wall, both judged by the code's own forces, are not as
-/// asked.
-pub(super) fn in_the_stack(series: &Series, case: &Case) -> Vec<String> {
-    const SAME: f64 = 1e-3;
-    let rows = series.samples();
-    let law = case.convention.law(case.stack.stiffness_ratio);
-    let weight = case.stack.floor_force(0.0);
-    let borne = |row: &Sample| (row.borne(&case.stack) - row.wall_force) / weight;
-    let highest = rows
-        .iter()
-        .max_by(|one, two| one.wall_force.total_cmp(&two.wall_force));
-    let (Some(first), Some(last)) = (rows.first(), highest) else {
-        return Vec::new();
-    };
-    let mut told = Vec::new();
-    if [first, last]
-        .iter()
-        .any(|row| (borne(row) - 1.0).abs() > SAME)
-    {
-        told.push(format!(
-            "floor and wall bear {:.4} times the weight 3 m g at step 0, and {:.4} times at step {}",
-            borne(first),
-            borne(last),
-            last.step
-        ));
-    }
-    let height = |row: &Sample| row.top(&case.stack)[1];
-    let way = |row: &Sample| height(first) - height(row) + law.overlap(row.wall_force);
-    let asked = |row: &Sample| case.protocol.wall_speed * row.time;
-    let pressed = || {
-        rows.iter()
-            .filter(|row| row.wall_force > 0.0 && row.step <= last.step)
-    };
-    let half = pressed().nth(pressed().count() / 2);
-    if let (Some(touched), Some(half)) =
-        (pressed().next(), half.filter(|half| half.step < last.step))
-    {
-        let speed = |from: &Sample, to: &Sample| (way(to) - way(from)) / (asked(to) - asked(from));
-        let ahead = [touched, last].map(|row| way(row) - asked(row));
-        let speeds = [speed(touched, half), speed(half, last)];
-        if ahead[1].abs() > SAME * asked(last) || speeds.iter().any(|own| (own - 1.0).abs() > SAME)
-        {
-            let steps = |way: f64| way / (case.protocol.wall_speed * case.protocol.time_step);
-            let place = |way: f64| match way < 0.0 {
-                true => format!("{:.6} r too high ({:.1} steps behind)", -way, -steps(way)),
-                false => format!("{way:.6} r too low ({:.1} steps ahead)", steps(way)),
-            };
-            told.push(format!(
-                "judged by its force and y1, the wall is {} when it first presses, at step {}, and {} at step {}; in between \
-                 it moves {:.4} times as fast as it must in the first half, and {:.4} times in the second",
-                place(ahead[0]), touched.step, place(ahead[1]), last.step, speeds[0], speeds[1]
-            ));
-        }
-    }
-    told
-}
-
 /// Recognises gross mistakes without computing anything: no gravity or one that points upwards, a stack that fell or
 /// collapsed, a wall that never presses, single precision.
 pub(super) fn at_first_sight(series: &Series, stack: &Stack) -> Option<String> {

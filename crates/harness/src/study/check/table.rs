@@ -16,21 +16,10 @@ pub(super) struct Table {
     pub run: Vec<Quantity>,
     pub law: Vec<Flags>,
     pub loading: Vec<Flags>,
-    pub size: Vec<Size>,
-    /// Values of measured properties that have a meaning.
-    property: Vec<Property>,
     /// Columns that are likely to share a mistake.
     pub group: Vec<Group>,
     /// Usual causes by the name of an item.
     usual: BTreeMap<String, String>,
-}
-
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Property {
-    of: String,
-    value: f64,
-    says: String,
 }
 
 #[derive(Debug, Deserialize)]
@@ -82,17 +71,6 @@ pub(super) struct Quantity {
 pub(super) struct Flags {
     pub says: String,
     pub set: Vec<(String, f64)>,
-}
-
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct Size {
-    pub is: String,
-    pub field: String,
-    pub from: f64,
-    pub to: f64,
-    #[serde(default)]
-    pub contact: bool,
 }
 
 pub(super) static TABLE: LazyLock<Table> = LazyLock::new(|| {
@@ -152,14 +130,6 @@ pub(super) fn meanings(
     let mut texts: Vec<String> = fitting.map(|value| value.says.clone()).collect();
     texts.truncate(MOST_CAUSES);
     texts
-}
-
-/// Returns the meanings of the measured value `found` of a property.
-pub(super) fn of_property(property: &str, found: f64) -> Vec<String> {
-    const DIGITS: f64 = 2e-3;
-    let own = TABLE.property.iter().filter(|own| own.of == property);
-    let fitting = own.filter(|own| (found - own.value).abs() <= DIGITS * own.value.abs().max(1e-6));
-    fitting.map(|own| own.says.clone()).collect()
 }
 
 /// Returns the usual causes of an item that failed.

@@ -227,16 +227,10 @@ impl Twin {
 
     fn prepare(&mut self) {
         let root = 3f64.sqrt();
-        let apart = 1.0 + 0.5 * self.run.spread;
-        let places = [
-            [0.0, 1.0 + root + self.run.lift],
-            [apart, 1.0],
-            [-apart, 1.0],
-        ];
-        let scale = 1.0 + self.run.enlarged;
+        let places = [[0.0, 1.0 + root], [1.0, 1.0], [-1.0, 1.0]];
         self.bodies = places
             .map(|[x, y]| Body {
-                at: [scale * x, scale * y, 0.0],
+                at: [x, y, 0.0],
                 ..Body::default()
             })
             .to_vec();
@@ -285,7 +279,7 @@ impl Twin {
         self.wall = match self.run.wall_from_start {
             0.0 => self.bodies[0].at[1] + 1.0,
             _ => 2.0 + 3f64.sqrt(),
-        } + self.run.wall_start;
+        };
         let early = self.run.wall_from_run * (self.run.ramp_steps + self.run.rest_steps);
         self.wall -= early * self.run.wall_speed * self.run.time_step;
         self.wall_speed = self.run.wall_speed;
@@ -375,7 +369,7 @@ impl Twin {
                 ([0.0, -1.0], distance, [0.0, -self.wall_speed, 0.0])
             }
         };
-        let overlap = radius - distance - law.gap;
+        let overlap = radius - distance;
         let state = &mut self.states[index];
         let is_open = overlap <= 0.0 && (overlap < 0.0 || law.touches == 0.0);
         if overlap.is_nan() || is_open && law.pulls * state.overlap == 0.0 {
@@ -425,14 +419,10 @@ impl Twin {
                 * pressed
                 * (pressing + (damped - 1.0) * damping + (sprung - 1.0) * state.elastic);
             let t = sign * sheared * law.tangent * tangential;
-            let rolls = self.bodies[body].speed[2];
             let load = &mut self.bodies[body].load;
             load[0] += n * normal[0] - t * normal[1];
             load[1] += n * normal[1] + t * normal[0];
             load[2] -= turned * arm * tangential;
-            if law.rolling != 0.0 && rolls != 0.0 {
-                load[2] -= law.rolling * pressing * rolls.signum();
-            }
         };
         let pressed = if WALL.contains(&index) {
             self.run.wall_presses
@@ -491,13 +481,7 @@ impl Twin {
                 if run.local_damping != 0.0 && (old != 0.0 || run.damps_rest != 0.0) {
                     force -= run.local_damping * force.abs() * old.signum();
                 }
-                let rate = if axis == 2 {
-                    run.spin_damping_rate
-                } else {
-                    run.damping_rate
-                };
-                let kept = (1.0 - run.damping) * (1.0 - rate * dt);
-                let mut new = (old + force / inertia[axis] * kick) * kept;
+                let mut new = old + force / inertia[axis] * kick;
                 if axis == 2 && !turns || axis == 0 && index == 0 && run.fixed_top != 0.0 {
                     new = 0.0;
                 }

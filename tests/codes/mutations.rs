@@ -553,20 +553,26 @@ fn restitution_is_off(mutation: Mutation) -> bool {
 }
 
 /// By the probe; in a series, beside the native one; and in a number that theory knows, the yield force or the
-/// restitution of an impact.
+/// restitution of an impact. No such number depends on the tangential damping.
 #[test]
 fn a_thousandth_of_any_coefficient_is_seen_in_probe_series_and_theory() {
     assert_eq!(series_beside_native(Mutation::None), Verdict::Agrees);
     assert!(!restitution_is_off(Mutation::None));
     for mutation in THOUSANDTHS {
-        let properties = differing_properties(mutation);
-        let series = series_beside_native(mutation);
-        let force = crosscheck_alone(&crosscheck(mutation));
-        let restitution = restitution_is_off(mutation);
-        eprintln!("{mutation:?}: {properties:?}, {series:?}, {force}, {restitution}");
-        assert_ne!(properties, Vec::<String>::new(), "{mutation:?}");
-        assert_eq!(series, Verdict::Differs, "{mutation:?}");
-        assert!(force != "agrees" || restitution, "{mutation:?}");
+        assert_ne!(
+            differing_properties(mutation),
+            Vec::<String>::new(),
+            "{mutation:?}"
+        );
+        assert_eq!(
+            series_beside_native(mutation),
+            Verdict::Differs,
+            "{mutation:?}"
+        );
+        let force_is_off = crosscheck_alone(&crosscheck(mutation)) != "agrees";
+        let is_known_to_theory = mutation != Mutation::TangentialDampingHighByAThousandth;
+        let is_off = force_is_off || restitution_is_off(mutation);
+        assert_eq!(is_off, is_known_to_theory, "{mutation:?}");
     }
 }
 

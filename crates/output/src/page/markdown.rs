@@ -35,7 +35,7 @@ fn markdown_block(block: &Block) -> String {
 fn table(data: &PageTable) -> String {
     let PageTable { name, number, .. } = data;
     format!(
-        "\n<a id=\"table-{name}\"></a>\n\n**Table {number}.** {} [CSV](tables/{name}.csv), [TEX](tables/{name}.tex)\n\n{}",
+        "\n<a id=\"table-{name}\"></a>\n\n**Table {number}.** {} [CSV](tables/{name}.csv)\n\n{}",
         markdown_text(&data.caption),
         data.table.markdown()
     )

@@ -92,24 +92,6 @@ fn items_of(micro: Option<&Micro>) -> Vec<Item> {
     micro.map_or_else(none, Micro::items)
 }
 
-/// Returns the items of a code whose convention the twin cannot run: the stack is not tested, only its micro-tests
-/// are.
-pub(super) fn of_micro_tests(convention: &ContactConvention, micro: Option<&Micro>) -> Vec<Item> {
-    let reason = match convention.law.is_linear() {
-        false => {
-            "the law is not linear: mistakes are looked for, row by row, with linear springs alone; the stack is judged by \
-             its yield force"
-        }
-        true => {
-            "nothing turns the springs (`history_update = \"fixed\"`): mistakes are looked for, row by row, with springs that \
-             turn alone; the stack is judged by its yield force"
-        }
-    };
-    let mut items = vec![Item::not_tested(Grade::Consistency, "stack", reason)];
-    items.extend(items_of(micro));
-    items
-}
-
 /// Locates a mistake that is not in the table: by the equations that fail in the micro-tests, or else by the place in
 /// the stack. Also returns whether that names the mistake.
 fn located(

@@ -10,7 +10,7 @@ use super::table::MOST_CAUSES;
 use super::terms::{
     FORCE, KICK, MOVE, Moment, START, TORQUE, Term, Touch, WALL_FORCE, WHERE, rate,
 };
-use super::twin::{FLOOR, Row, Twin, WALL, cells};
+use super::twin::{FLOOR, Twin, WALL};
 use crate::model::{ContactConvention, ContactTest};
 use crate::runs::Answer;
 use crate::series::{BodyRow, MotionRow};
@@ -421,16 +421,11 @@ struct Walk {
 
 impl Walk {
     /// Advances to the next row, in which the first body has this contact, open or closed.
-    fn go(
-        &mut self,
-        twin: &Twin,
-        row: &Row,
-        (contact, overlap): (usize, f64),
-        [one, two]: [BodyRow; 2],
-    ) {
-        let [pressing, tangential, elastic, _, spring, trial] = cells(row, contact);
-        let old = self.touch;
-        let slides = tangential != trial && contact < WALL.start;
+    fn go(&mut self, twin: &Twin, (contact, overlap): (usize, f64), [one, two]: [BodyRow; 2]) {
+        let state = &twin.states[contact];
+        let ([normal_force, tangential], old) = (state.force, self.touch);
+        let [sheared, pulled] = state.sheared;
+        let slides = tangential != state.trial && contact < WALL.start;
         self.when = match (slides, self.when) {
             (true, _) => SLIDING,
             (false, "") => "",
@@ -448,26 +443,37 @@ impl Walk {
         let relative = [0, 1].map(|axis| one.velocity[axis] - other.velocity[axis]);
         let across = normal[0] * relative[1] - normal[1] * relative[0];
         let separation = normal[0] * relative[0] + normal[1] * relative[1];
+        let memory = state.memory;
         let grown =
             [one.spin, other.spin, across, -separation].map(|rate| rate * twin.run.time_step);
-        let sheared = -twin.contacts[contact].tangential_stiffness * spring;
+        let pressing = normal_force - pulled;
         let began = old.overlap > 0.0;
         self.touch = Touch {
             normal,
             pressing,
             tangential,
-            elastic,
+            elastic: state.elastic,
             sheared,
+            pulled,
             overlap,
             separation,
             sliding: across - one.spin - other.spin,
             ways: std::array::from_fn(|index| old.ways[index] + grown[index]),
+            stretches: std::array::from_fn(|index| {
+                memory.kept * old.stretches[index] + memory.unit * grown[index]
+            }),
+            stiffness: memory.growth / memory.unit,
+            damping_growth: memory.damping,
             late: if began {
                 [old.pressing - pressing, old.tangential - tangential]
             } else {
                 [0.0; 2]
             },
-            sheared_before: if began { old.sheared } else { 0.0 },
+            sheared_before: if began {
+                state.sheared_before
+            } else {
+                [0.0; 2]
+            },
             first_overlap: if began { old.first_overlap } else { overlap },
             largest_overlap: old.largest_overlap.max(overlap),
         };
@@ -542,7 +548,7 @@ impl Equations {
         for row in answer.motion.rows() {
             let bodies = row.bodies();
             let wall = test.wall_height_at(row.step);
-            let forces = twin.forces_at(&bodies, wall);
+            twin.compute_forces_at(&bodies, wall);
             for index in 0..bodies.len() {
                 let overlaps = overlaps(index, bodies, wall);
                 let nearest = (0..3)
@@ -550,10 +556,12 @@ impl Equations {
                     .unwrap_or(0);
                 let contact = [0, FLOOR.start + index, WALL.start + index][nearest];
                 if index == 0 {
-                    walk.go(&twin, &forces, (contact, overlaps[nearest]), bodies);
+                    walk.go(&twin, (contact, overlaps[nearest]), bodies);
                 }
                 let moment = moment(&walk, &twin, &test, (row, index), nearest);
-                self.integration(&moment, walk.last[index].as_ref());
+                if test.drive.is_none() {
+                    self.integration(&moment, walk.last[index].as_ref());
+                }
                 let closed = overlaps.iter().filter(|own| **own > 0.0).count();
                 self.forces(row, moment, (closed, nearest), walk.when);
                 walk.last[index] = Some(moment);
@@ -611,7 +619,8 @@ impl Equations {
         };
         for (quantity, along) in directions {
             let law = |axis: usize| {
-                touch.pressing * moment.along(axis) + touch.tangential * moment.across(axis)
+                (touch.pressing + touch.pulled) * moment.along(axis)
+                    + touch.tangential * moment.across(axis)
             };
             let found = along[0] * now.force[0] + along[1] * now.force[1];
             let expected = along[0] * law(0) + along[1] * law(1);
@@ -713,37 +722,48 @@ fn moment(
 
 #[cfg(test)]
 mod tests {
-    use super::super::ask_native;
+    use super::super::{ask_native, conventions};
     use super::*;
+    use crate::model::Law;
     use crate::series::Motion;
 
-    /// Returns what is told of the native DEM after a `change` of its rows.
-    fn told_after(change: impl Fn(&mut MotionRow)) -> Vec<String> {
-        let mut answers = ask_native(ContactConvention::TURNING);
+    /// Returns what is told of the native DEM under a convention after a `change` of its rows.
+    fn told_after(convention: ContactConvention, change: impl Fn(&mut MotionRow)) -> Vec<String> {
+        let mut answers = ask_native(convention);
         for answer in &mut answers {
             let mut rows = answer.motion.rows().to_vec();
             rows.iter_mut().for_each(&change);
             answer.motion = Motion::new(rows, answer.test.steps).expect("as many rows as before");
         }
-        failing(&answers, ContactConvention::TURNING, true).texts
+        failing(&answers, convention, true).texts
     }
 
     #[test]
     fn all_equations_hold_for_the_native_dem() {
-        assert_eq!(told_after(|_| ()), Vec::<String>::new());
+        for convention in conventions() {
+            let told = told_after(convention, |_| ());
+            assert_eq!(told, Vec::<String>::new(), "{convention:?}");
+        }
     }
 
     #[test]
     fn what_is_added_to_a_force_is_named_with_its_size_and_place() {
-        let told = told_after(|row| row.fx1 += 0.125 * row.vx1).join(" ");
-        assert!(
-            told.contains("+0.125000 times the velocity of the cylinder"),
-            "{told}"
-        );
-        let told = told_after(|row| row.torque2 *= 3.0).join(" ");
-        let expected = "the torque on the second cylinder between cylinders: the tangential force is 3.000000 times";
-        assert!(told.contains(expected), "{told}");
-        let told = told_after(|row| row.y1 = (row.y1 * 1e4).round() / 1e4).join(" ");
-        assert!(told.contains("the change in a step of y"), "{told}");
+        for convention in [
+            ContactConvention::TURNING,
+            ContactConvention::PAPER,
+            ContactConvention::with_law(Law::HERTZ),
+        ] {
+            let told_after = |change: &dyn Fn(&mut MotionRow)| told_after(convention, change);
+            let told = told_after(&|row| row.fx1 += 0.125 * row.vx1).join(" ");
+            assert!(
+                told.contains("+0.125000 times the velocity of the cylinder"),
+                "{told}"
+            );
+            let told = told_after(&|row| row.torque2 *= 3.0).join(" ");
+            let expected = "the torque on the second cylinder between cylinders: the tangential force is 3.000000 times";
+            assert!(told.contains(expected), "{told}");
+            let told = told_after(&|row| row.y1 = (row.y1 * 1e4).round() / 1e4).join(" ");
+            assert!(told.contains("the change in a step of y"), "{told}");
+        }
     }
 }

@@ -35,7 +35,6 @@ use information::{information, same_bits};
 use micro::Micro;
 use std::io;
 use std::path::Path;
-use twin::Twin;
 use unreadable::explained;
 
 /// Friction and stiffness of the stack that is compressed: soft, so that every convention shows, and above the
@@ -131,18 +130,12 @@ impl Check<'_> {
         let installed = self.program()?;
         let case = case(self.code.declaration().convention);
         let Some(run) = self.stack(installed.as_ref(), &case) else {
-            if Twin::makes(&case.convention) {
-                self.explain_explosion(installed.as_ref());
-            }
+            self.explain_explosion(installed.as_ref());
             return None;
         };
         let micro = self.micro_tests(installed.as_ref())?;
-        self.report
-            .items
-            .extend(match Twin::makes(&case.convention) {
-                true => diagnosis::items(&run.series, &case, micro.as_ref()),
-                false => diagnosis::of_micro_tests(&case.convention, micro.as_ref()),
-            });
+        let compared = diagnosis::items(&run.series, &case, micro.as_ref());
+        self.report.items.extend(compared);
         self.spheres(installed.as_ref());
         let again = self.run(installed.as_ref(), &case, "again");
         self.add(same_bits(
@@ -401,4 +394,51 @@ fn ask_native(convention: ContactConvention) -> Vec<crate::runs::Answer> {
     super::convention::probe(&declared, run).expect("the native DEM answers");
     answers.retain(|answer| answer.test.space.is_none());
     answers
+}
+
+/// The paper's convention, those that differ from it in every way, and laws of every power and memory.
+#[cfg(test)]
+fn conventions() -> Vec<ContactConvention> {
+    use crate::model::{
+        Arms, ContactArms, CoulombOperand, DampingGrowth, HistoryUpdate, Law, SlidingSpring,
+        TangentialHistory, TangentialStiffening, TensileForce,
+    };
+    let mut arms = Arms::PAPER;
+    (arms.pair, arms.floor) = (ContactArms::reciprocal(-0.5), ContactArms::reciprocal(-1.0));
+    let other = ContactConvention {
+        coulomb_operand: CoulombOperand::Spring,
+        sliding_spring: SlidingSpring::FollowsLimit,
+        history_update: HistoryUpdate::Projected,
+        tensile_force: TensileForce::NeverPulls,
+        moment_of_inertia: 0.4,
+        ..ContactConvention::with_arms(arms)
+    };
+    let fixed = ContactConvention {
+        history_update: HistoryUpdate::Fixed,
+        ..other
+    };
+    let mut all = vec![
+        ContactConvention::TURNING,
+        other,
+        ContactConvention::PAPER,
+        fixed,
+    ];
+    for (place, power) in Power::ALL.into_iter().enumerate() {
+        let law = Law {
+            power,
+            history: TangentialHistory::ALL[place % TangentialHistory::ALL.len()],
+            floor_ratio: 1.3,
+            floor_kappa: (place % 2 == 0).then_some(1.7),
+            tangential_stiffening: TangentialStiffening::ALL[place % 3],
+            damping: DampingGrowth::ALL[place % 2],
+        };
+        let updates = [HistoryUpdate::Fixed, HistoryUpdate::Linearised];
+        let histories = updates.map(|history_update| ContactConvention {
+            law,
+            history_update,
+            ..other
+        });
+        all.extend(histories);
+    }
+    all
 }

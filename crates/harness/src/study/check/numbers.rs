@@ -24,7 +24,8 @@ macro_rules! numbers {
 }
 
 numbers! {
-    /// The law of one contact. Without a mistake factors are 1 and flags are 0.
+    /// The law of one contact: its coefficients at an overlap of 1, and what may be wrong with it. Without a mistake
+    /// factors are 1 and flags are 0.
     OfContact:
     normal_stiffness = 1.0, "k_n.";
     tangential_stiffness = 1.0, "k_t.";
@@ -35,7 +36,10 @@ numbers! {
     exists = 1.0, "Factor on both forces.";
     by_diameter = 0.0, "Flag: the normal is the distance of the centres over 2 r, and no unit vector.";
     lever = 1.0, "Radius in torque and surface velocity.";
-    exponent = 1.0, "Power of the overlap in the spring's force.";
+    exponent = 0.0, "Power of the overlap in the normal spring's force beyond that of the law.";
+    damping_exponent = 0.0, "The same in the normal damping.";
+    tangential_exponent = 0.0, "The same in the tangential stiffness.";
+    tangential_damping_exponent = 0.0, "The same in the tangential damping.";
     spring_growth = 1.0, "Factor on the growth of the tangential spring in a step.";
     spring_kept = 1.0, "Part of the tangential spring that is kept from one step to the next.";
     spin_one = 1.0, "Factor on the spin of the first body in the surface velocity.";
@@ -73,7 +77,6 @@ numbers! {
     caps_of = 0.0, "The sign of the forces that alone are capped; 0 where all are.";
     limit_before = 0.0, "Flag: μ times the normal force of the step before.";
     damps_approach = 0.0, "Flag: only surfaces that approach are damped along the normal.";
-    damping_exponent = 0.0, "Power of the overlap in the normal damping.";
     pulls = 0.0, "Flag: a contact that opens goes on pulling.";
     shares_spring = 0.0, "Flag: all contacts of its kind have one tangential spring.";
     touches = 0.0, "Flag: surfaces that just touch are a contact.";

@@ -291,7 +291,7 @@ fn score(evidence: &[Evidence], fault: &Fault) -> Option<f64> {
 mod tests {
     use super::super::{ask_native, case};
     use super::*;
-    use crate::model::ContactConvention;
+    use crate::model::{ContactConvention, Law};
 
     #[test]
     fn every_field_in_the_table_is_a_number_of_the_twin() {
@@ -313,30 +313,42 @@ mod tests {
     }
 
     /// A mistake that a twin makes is the one that is found.
-    #[test]
-    fn a_mistake_in_the_law_is_found_among_all() {
-        let answers = ask_native(ContactConvention::TURNING);
-        let told = |says: &str| {
+    fn assert_found(convention: ContactConvention, mistakes: &[&str]) {
+        let answers = ask_native(convention);
+        for says in mistakes {
             let faults = faults();
-            let fault = faults
-                .iter()
+            let mut named = faults.iter();
+            let fault = named
                 .find(|fault| fault.text.starts_with(says))
                 .expect("it is in the table");
             let motions = answers
                 .iter()
-                .map(|answer| Evidence::of_motion(answer, ContactConvention::TURNING));
+                .map(|answer| Evidence::of_motion(answer, convention));
             let wrong = motions.map(|own| own.written_by(|twin| fault.make(twin)));
-            explanations(&wrong.collect::<Vec<_>>())
-        };
-        for says in [
+            let causes = explanations(&wrong.collect::<Vec<_>>());
+            assert!(causes[0].starts_with(says), "{says}: {causes:?}");
+        }
+    }
+
+    #[test]
+    fn a_mistake_in_the_law_is_found_among_all() {
+        let of_any_law = [
             "damping_normal between cylinders: its sign is wrong",
             "Coulomb's limit has the spring's part",
             "the tangential spring is cleared",
             "the growth of the tangential spring in a step (relative tangential velocity times time step) at the floor: it is divided",
             "explicit Euler",
-        ] {
-            let causes = told(says);
-            assert!(causes[0].starts_with(says), "{says}: {causes:?}");
+        ];
+        let fixed = ContactConvention::PAPER;
+        let hertz = ContactConvention::with_law(Law::HERTZ);
+        for convention in [ContactConvention::TURNING, fixed, hertz] {
+            assert_found(convention, &of_any_law);
         }
+        let of_hertz = [
+            "normal and tangential force have the square root of the overlap once less than the law",
+            "the tangential stiffness is divided by the square root of the overlap",
+            "the normal damping is divided by the fourth root of the overlap",
+        ];
+        assert_found(hertz, &of_hertz);
     }
 }

@@ -39,6 +39,8 @@ pub(super) struct Touch {
     /// The springs' parts of `pressing` and `tangential`.
     pub elastic: f64,
     pub sheared: f64,
+    /// Force along the normal of a tangential spring that nothing turns.
+    pub pulled: f64,
     /// Negative where the surfaces are apart.
     pub overlap: f64,
     pub separation: f64,
@@ -46,9 +48,16 @@ pub(super) struct Touch {
     /// Since the beginning: the angles by which both surfaces have turned, the path of the centres along the tangent,
     /// and the distance by which the surfaces have approached.
     pub ways: [f64; 4],
+    /// The first three of them, each as the law remembers the stretching of a tangential spring by it, and the force
+    /// of a unit of that, in units of the tangential stiffness.
+    pub stretches: [f64; 3],
+    pub stiffness: f64,
+    /// Tangential damping at this overlap, in units of its coefficient.
+    pub damping_growth: f64,
     /// Normal and tangential force of the step before, minus those of this one.
     pub late: [f64; 2],
-    pub sheared_before: f64,
+    /// Force of the tangential spring of the step before, along the present tangent and normal.
+    pub sheared_before: [f64; 2],
     pub first_overlap: f64,
     pub largest_overlap: f64,
 }
@@ -61,6 +70,11 @@ impl Moment {
     pub fn across(&self, axis: usize) -> f64 {
         let [x, y] = self.touch.normal;
         self.sign * [-y, x][axis]
+    }
+
+    /// Returns a force that has these parts along tangent and normal.
+    fn spring(&self, axis: usize, [sheared, pulled]: [f64; 2]) -> f64 {
+        sheared * self.across(axis) + pulled * self.along(axis)
     }
 
     /// Returns the position that the task asks for at step 0.
@@ -98,6 +112,11 @@ impl Moment {
 }
 
 impl Touch {
+    /// Returns the force of a tangential spring that one of the ways has stretched.
+    fn of_way(&self, way: usize) -> f64 {
+        self.stiffness * self.stretches[way]
+    }
+
     fn damping(&self) -> f64 {
         self.pressing - self.elastic
     }
@@ -135,12 +154,12 @@ macro_rules! terms {
 }
 
 /// A force on a body.
-pub(super) static FORCE: [Term; 36] = terms! {
+pub(super) static FORCE: [Term; 37] = terms! {
     "the normal force" => |m, axis| m.touch.pressing * m.along(axis);
     "the spring's part of the normal force" => |m, axis| m.touch.elastic * m.along(axis);
     "the damping of the normal force" => |m, axis| m.touch.damping() * m.along(axis);
-    "the tangential force" => |m, axis| m.touch.tangential * m.across(axis);
-    "the spring's part of the tangential force" => |m, axis| m.touch.sheared * m.across(axis);
+    "the tangential force" => |m, axis| m.spring(axis, [m.touch.tangential, m.touch.pulled]);
+    "the spring's part of the tangential force" => |m, axis| m.spring(axis, [m.touch.sheared, m.touch.pulled]);
     "the damping of the tangential force" => |m, axis| m.touch.tangential_damping() * m.across(axis);
     "the horizontal component of the normal force" => |m, axis| m.touch.pressing * m.along(0) * on(axis, 0);
     "the vertical component of the normal force" => |m, axis| m.touch.pressing * m.along(1) * on(axis, 1);
@@ -149,8 +168,8 @@ pub(super) static FORCE: [Term; 36] = terms! {
     "the vertical component of the tangential force (its direction is not the tangent)" =>
         |m, axis| m.touch.tangential * m.across(1) * on(axis, 1);
     "the tangential spring of the step before (its history: it is cleared where this is left out)" =>
-        |m, axis| m.touch.sheared_before * m.across(axis);
-    "the overlap", "the contact acts across a gap where it is open: its range is too large, or it is not ended" =>
+        |m, axis| m.spring(axis, m.touch.sheared_before);
+    "the overlap", "a linear spring; where the contact is open, it acts across a gap: its range is too large, or it is not ended" =>
         |m, axis| m.touch.overlap * m.along(axis);
     "the largest overlap so far", "the force depends on the history of the overlap: hysteresis, another stiffness on unloading" =>
         |m, axis| m.touch.largest_overlap * m.along(axis);
@@ -163,17 +182,20 @@ pub(super) static FORCE: [Term; 36] = terms! {
     "the difference to the tangential force of the step before", "the force is that of the step before, if this is 1" =>
         |m, axis| m.touch.late[1] * m.across(axis);
     "a constant force along the normal", "adhesion, a preload" => |m, axis| m.along(axis);
-    "the square of the overlap", "no linear spring" => |m, axis| m.touch.overlap.powi(2) * m.along(axis);
+    "the overlap to the power of 3/2", "another power than that of the law" =>
+        |m, axis| m.touch.overlap.max(0.0) * m.touch.overlap.max(0.0).sqrt() * m.along(axis);
+    "the square of the overlap", "another power than that of the law" => |m, axis| m.touch.overlap.powi(2) * m.along(axis);
     "the overlap times the normal velocity", "damping that depends on the overlap" =>
         |m, axis| m.touch.overlap * m.touch.separation * m.along(axis);
     "the normal velocity", "damping" => |m, axis| m.touch.separation * m.along(axis);
     "the angle by which the first surface has turned", "its spin counts otherwise in the tangential spring" =>
-        |m, axis| m.touch.ways[0] * m.across(axis);
+        |m, axis| m.touch.of_way(0) * m.across(axis);
     "the angle by which the second surface has turned", "its spin counts otherwise in the tangential spring" =>
-        |m, axis| m.touch.ways[1] * m.across(axis);
+        |m, axis| m.touch.of_way(1) * m.across(axis);
     "the way of the centres along the tangent", "their velocity counts otherwise in the tangential spring" =>
-        |m, axis| m.touch.ways[2] * m.across(axis);
-    "the spin", "it counts otherwise in the tangential damping" => |m, axis| m.now.spin * m.across(axis);
+        |m, axis| m.touch.of_way(2) * m.across(axis);
+    "the spin", "it counts otherwise in the tangential damping" =>
+        |m, axis| m.touch.damping_growth * m.now.spin * m.across(axis);
     "the tangential velocity", "damping" => |m, axis| m.touch.sliding * m.across(axis);
     "the normal force against the tangential velocity", "a friction by the sign of the velocity" =>
         |m, axis| -m.touch.pressing * sign_of(m.touch.sliding) * m.across(axis);
@@ -197,7 +219,7 @@ pub(super) static TORQUE: [Term; 14] = terms! {
     "the spring's part of the tangential force" => |m, _| -m.arm * m.touch.sheared;
     "the damping of the tangential force" => |m, _| -m.arm * m.touch.tangential_damping();
     "the tangential spring of the step before (its history: it is cleared where this is left out)" =>
-        |m, _| -m.arm * m.touch.sheared_before;
+        |m, _| -m.arm * m.touch.sheared_before[0];
     "the normal force against the spin", "rolling friction" => |m, _| -m.touch.pressing * sign_of(m.now.spin);
     "the normal force times the spin", "rolling resistance" => |m, _| m.touch.pressing * m.now.spin;
     "the spin", "a rolling resistance, a damping of the spin" => |m, _| m.now.spin;

@@ -184,8 +184,8 @@ impl Known {
             stacks[0].same = ROUNDING;
             motions.iter_mut().for_each(|own| own.same = ROUNDING);
         } else if !is_wrong {
-            // The micro-tests are right, so their distances come from another integrator.
-            motions.clear();
+            // No item shows a mistake in them, so what is far from the twin comes from another integrator.
+            motions.retain(|own| !own.is_off());
         }
         Self {
             stacks,
@@ -242,7 +242,8 @@ impl Known {
         causes = search::explanations(&all);
         if !law {
             let of_contacts = causes.iter_mut().filter(|own| search::is_of_contacts(own));
-            of_contacts.for_each(|own| own.push_str(" (in the stack; the micro-tests are right)"));
+            of_contacts
+                .for_each(|own| own.push_str(" (in the stack; the items on micro-tests pass)"));
         }
         if causes.is_empty() && law {
             causes = search::explanations(&motions);

@@ -442,3 +442,18 @@ fn conventions() -> Vec<ContactConvention> {
     }
     all
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_next_command_judges_the_law_of_the_code() {
+        let told = |name| judged_by(&Code::named(name).expect("a code"), "mydem");
+        assert_eq!(told("lammps"), "tristack crosscheck --codes mydem");
+        assert_eq!(
+            told("lammps-hertz"),
+            "tristack crosscheck --law hertz --codes mydem"
+        );
+    }
+}

@@ -327,7 +327,7 @@ impl Twin {
     }
 
     fn forces(&mut self) {
-        let run = self.run;
+        let run = &self.run;
         let weights = [run.weight_1, run.weight_2, run.weight_3];
         for (body, weight) in self.bodies.iter_mut().zip(weights) {
             let weight = run.weight * weight * run.gravity;
@@ -356,13 +356,22 @@ impl Twin {
     }
 
     fn contact(&mut self, index: usize, one: usize, two: Option<usize>) {
-        let law = self.contacts[index];
-        let radius = self.run.radius;
-        let first = self.bodies[one];
-        let ahead = self.run.wall_ahead * self.wall_speed * self.run.time_step;
+        let Self {
+            contacts,
+            run,
+            convention,
+            units,
+            bodies,
+            states,
+            ..
+        } = self;
+        let (law, state) = (&contacts[index], &mut states[index]);
+        let radius = run.radius;
+        let first = bodies[one];
+        let ahead = run.wall_ahead * self.wall_speed * run.time_step;
         let (normal, distance, other) = match two {
             Some(two) => {
-                let second = &self.bodies[two];
+                let second = &bodies[two];
                 let apart = [0, 1].map(|axis| first.at[axis] - second.at[axis]);
                 let distance = (apart[0] * apart[0] + apart[1] * apart[1]).sqrt();
                 let length = match law.by_diameter {
@@ -379,13 +388,16 @@ impl Twin {
             }
         };
         let overlap = radius - distance;
-        let state = &mut self.states[index];
         let is_open = overlap <= 0.0 && (overlap < 0.0 || law.touches == 0.0);
         if overlap.is_nan() || is_open && law.pulls * state.overlap == 0.0 {
+            let is_forgotten = state.overlap == 0.0 && state.spring == [0.0; 2];
+            if is_forgotten && law.stretches_open_spring == 0.0 {
+                return;
+            }
             let ([x, y], [dx, dy]) = (normal, [0, 1].map(|axis| first.speed[axis] - other[axis]));
             let sliding = x * dy - y * dx - radius * (first.speed[2] + other[2]);
             let [along, across] = state.spring;
-            let stretched = along + sliding * self.run.time_step;
+            let stretched = along + sliding * run.time_step;
             *state = State {
                 spring: [
                     along * law.keeps_open_spring + stretched * law.stretches_open_spring,
@@ -406,8 +418,8 @@ impl Twin {
         let sliding = law.sliding_one * across(first.speed) - law.sliding_two * across(other);
         let spin = law.spin_one * first.speed[2] + law.spin_two * other[2];
         let (arms, unit) = match two {
-            Some(_) => (self.convention.arms.pair, &self.units[0]),
-            None => (self.convention.arms.floor, &self.units[1]),
+            Some(_) => (convention.arms.pair, &units[0]),
+            None => (convention.arms.floor, &units[1]),
         };
         let lever = radius * law.lever;
         let touching = Touching {
@@ -416,10 +428,10 @@ impl Twin {
             sliding,
             turning: (lever + arms.kinematic * overlap) * spin,
             normal,
-            time_step: self.run.time_step,
-            weight: self.run.gravity,
+            time_step: run.time_step,
+            weight: run.gravity,
         };
-        touching.press(&law, unit, &self.convention, state);
+        touching.press(law, unit, convention, state);
         let [pressing, tangential] = state.force.map(|force| force * law.exists);
         state.force = [pressing, tangential];
         let arm = lever + arms.torque * overlap;
@@ -430,13 +442,13 @@ impl Twin {
                 * pressed
                 * (pressing + (damped - 1.0) * damping + (sprung - 1.0) * state.elastic);
             let t = sign * sheared * law.tangent * tangential;
-            let load = &mut self.bodies[body].load;
+            let load = &mut bodies[body].load;
             load[0] += n * normal[0] - t * normal[1];
             load[1] += n * normal[1] + t * normal[0];
             load[2] -= turned * arm * tangential;
         };
         let pressed = if WALL.contains(&index) {
-            self.run.wall_presses
+            run.wall_presses
         } else {
             1.0
         };
@@ -467,10 +479,13 @@ impl Twin {
     }
 
     fn advance(&mut self) {
-        let run = self.run;
-        let dt = run.time_step;
-        let kick = if run.half_kick != 0.0 { 0.5 * dt } else { dt };
+        let dt = self.run.time_step;
+        let kick = match self.run.half_kick {
+            0.0 => dt,
+            _ => 0.5 * dt,
+        };
         self.run.half_kick = 0.0;
+        let run = &self.run;
         let push = [run.push_x, run.push_y, run.push_spin];
         for index in 0..self.bodies.len() {
             let mass = if index == 0 {

@@ -130,7 +130,12 @@ pub struct SpringDashpot<R> {
 }
 
 composite!(
-    SpringDashpot { arms, law },
+    SpringDashpot { arms, law } beside {
+        coulomb_operand,
+        sliding_spring,
+        history_update,
+        tensile_force
+    },
     Arms { pair, floor },
     ContactArms { torque, kinematic },
     ContactLaw {
@@ -138,6 +143,11 @@ composite!(
         tangential_stiffness,
         damping_normal,
         damping_tangential
+    } beside {
+        power,
+        stiffens,
+        damping,
+        history
     },
 );
 

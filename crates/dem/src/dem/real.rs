@@ -141,13 +141,15 @@ impl<R: Real, C: Composite<R>> Composite<R> for Vec<C> {
     }
 }
 
-/// Implements [`Composite`] for structs, given the named fields that hold their numbers.
+/// Implements [`Composite`] for structs, given the fields that hold their numbers, and `beside` them the others: a field
+/// that is in neither list does not compile.
 macro_rules! composite {
-    ($($name:ident { $($field:ident),* }),* $(,)?) => {$(
+    ($($name:ident { $($field:ident),* $(,)? } $(beside { $($other:ident),* $(,)? })?),* $(,)?) => {$(
         impl<R: $crate::dem::Real> $crate::dem::Composite<R> for $name<R> {
             #[inline(always)]
             fn visit(&mut self, other: &Self, visit: &mut impl FnMut(&mut R, &R)) {
-                $(self.$field.visit(&other.$field, visit);)*
+                let Self { $($field,)* $($($other: _,)*)? } = self;
+                $($field.visit(&other.$field, visit);)*
             }
         }
     )*};

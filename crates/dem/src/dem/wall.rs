@@ -25,11 +25,7 @@ impl<R: Real> PlaneWall<R> {
     }
 }
 
-composite!(PlaneWall {
-    offset,
-    speed,
-    friction
-});
+composite!(PlaneWall { offset, speed, friction } beside { facing });
 
 #[cfg(test)]
 mod tests {

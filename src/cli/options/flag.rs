@@ -2,8 +2,10 @@
 
 use crate::model::InvalidValue;
 
-/// Returns `error` with the flag in place of the key of a case file.
+/// Returns `error` with the flag in place of the key of a case file. Keys of a convention and of its law have flags of
+/// their own names, but for the arms.
 pub(in crate::cli) fn as_flag(error: InvalidValue) -> InvalidValue {
+    let named = |key: &str| format!("--{}", key.replace('_', "-"));
     let flag = match error.key.as_str() {
         "stack.floor_friction" => "--mu",
         "stack.cylinder_friction" => "--mu-d",
@@ -14,10 +16,6 @@ pub(in crate::cli) fn as_flag(error: InvalidValue) -> InvalidValue {
         "convention.pair.kinematic_arm" => "--pair-kinematic-arm",
         "convention.floor" | "convention.floor.torque_arm" => "--floor-arm",
         "convention.floor.kinematic_arm" => "--floor-kinematic-arm",
-        "convention.history_update" => "--history-update",
-        "convention.law" => "--law",
-        "convention.law.floor_ratio" => "--floor-ratio",
-        "convention.law.floor_kappa" => "--floor-kappa",
         "cylinder.density" => "--density",
         "cylinder.poisson_ratio" => "--poisson",
         "mu_uncertainty" => "--mu-uncertainty",
@@ -26,7 +24,10 @@ pub(in crate::cli) fn as_flag(error: InvalidValue) -> InvalidValue {
         "protocol.preparation.kind" => "--preparation",
         "protocol.preparation.push" => "--push",
         "protocol.shortcuts" => "--shortcuts",
-        other => other,
+        other => match other.strip_prefix("convention.") {
+            Some(key) => &named(key.trim_start_matches("law.")),
+            None => other,
+        },
     };
     InvalidValue {
         key: flag.to_owned(),

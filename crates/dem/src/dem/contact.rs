@@ -476,4 +476,4 @@ impl<R: Real, G: Geometry<R>> Body<R, G> {
 }
 
 #[cfg(test)]
-mod tests;
+pub(super) mod tests;

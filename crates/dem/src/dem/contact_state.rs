@@ -70,21 +70,17 @@ impl<R: Real, Memory: Composite<R>, G: Geometry<R>> Composite<R> for ContactStat
 
 #[cfg(test)]
 mod tests {
-    use super::super::contact::{Counterpart, Spring, SpringDashpot};
+    use super::super::contact::{Spring, SpringDashpot};
     use super::*;
+    use crate::dem::contact::tests::CONTACT as SLIDING;
     use crate::model::ContactConvention;
 
     type State = ContactState<f64, Spring<f64>>;
 
     const CONTACT: Contact<f64> = Contact {
-        counterpart: Counterpart::Wall,
-        normal: [0.0, 1.0],
         overlap: 0.5,
-        separation_speed: 0.0,
-        sliding_speed: 0.5,
-        spin: 0.0,
         friction: 10.0,
-        time_step: 0.1,
+        ..SLIDING
     };
 
     fn law() -> SpringDashpot<f64> {

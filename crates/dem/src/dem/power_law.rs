@@ -112,6 +112,7 @@ impl<R: Real, G: Geometry<R>> ContactModel<R, G> for PowerLaw<R> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::dem::contact::tests::CONTACT;
     use crate::model::{Law, Power, TangentialHistory, TangentialStiffening};
 
     const TIME_STEP: f64 = 0.1;
@@ -123,14 +124,11 @@ mod tests {
 
     fn contact(overlap: f64, sliding_speed: f64) -> Contact<f64> {
         Contact {
-            counterpart: Counterpart::Wall,
-            normal: [0.0, 1.0],
             overlap,
-            separation_speed: 0.0,
             sliding_speed,
-            spin: 0.0,
             friction: 10.0,
             time_step: TIME_STEP,
+            ..CONTACT
         }
     }
 

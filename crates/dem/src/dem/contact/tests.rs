@@ -3,7 +3,8 @@
 use super::*;
 use crate::dem::geometry::Space;
 
-const CONTACT: Contact<f64> = Contact {
+/// A contact with a wall along which a body slides.
+pub(in crate::dem) const CONTACT: Contact<f64> = Contact {
     counterpart: Counterpart::Wall,
     normal: [0.0, 1.0],
     overlap: 1.0,

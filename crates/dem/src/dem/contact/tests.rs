@@ -110,11 +110,7 @@ fn transports_differ_by_the_square_of_the_turn() {
 #[test]
 fn a_force_is_put_together_from_its_components_and_taken_apart_into_them() {
     let normal = [0.6, 0.8];
-    let force = ContactForce::<f64> {
-        normal: 2.0,
-        tangential: 5.0,
-        arm: 1.0,
-    };
+    let force = ContactForce::<f64>::new(2.0, 5.0, 1.0);
     // 2 n + 5 t with t = (-0.8, 0.6).
     let vector: [f64; 2] = force.as_vector(normal);
     assert!((vector[0] + 2.8).abs() < 1e-15 && (vector[1] - 4.6).abs() < 1e-15);

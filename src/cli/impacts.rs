@@ -50,7 +50,7 @@ impl Arguments {
         };
         let named = self.codes.of_power(power)?;
         match named.is_empty() {
-            true => Ok(find_all(&Code::of_power(power))),
+            true => Ok(find_all(&Code::with_power(power))),
             false => selected_codes(&named),
         }
     }

@@ -100,7 +100,7 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
 /// none was named.
 fn codes_of(named: &[Code], power: Power) -> Result<Vec<SelectedCode>, CliError> {
     if named.is_empty() {
-        return Ok(find_all(&Code::of_power(power)));
+        return Ok(find_all(&Code::with_power(power)));
     }
     let mut own = vec![Code::native()];
     own.extend(named.iter().filter(|code| code.has_power(power)).cloned());

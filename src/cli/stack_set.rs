@@ -81,7 +81,7 @@ impl StackSet {
     /// Returns the codes that measure the stacks by a law of this power. For other laws than the paper's, the quick
     /// profile has one code of each folder.
     pub fn codes(&self, power: Power) -> Result<Vec<Code>, InvalidValue> {
-        let mut codes = Code::of_power(power);
+        let mut codes = Code::with_power(power);
         if power != Power::Linear && self.profile()? == Profile::Quick {
             codes.retain(|code| code.is_first_variant());
         }

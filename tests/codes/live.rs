@@ -21,7 +21,7 @@ fn named(name: &str) -> Code {
 
 /// The external codes that are installed.
 fn installed() -> Vec<Code> {
-    common::installed(&Code::of_power(Power::Linear)[1..])
+    common::installed(&Code::with_power(Power::Linear)[1..])
 }
 
 /// Their names, as `--codes` has them.
@@ -467,7 +467,7 @@ fn largest_deviation(left: &Series, right: &Series) -> f64 {
 /// The first Hertz style of each code, under its own convention, at the six frictions of the quick profile.
 #[test]
 fn installed_codes_agree_with_the_limit_of_their_hertz_style() {
-    let mut styles = common::installed(&Code::of_power(Power::Hertz)[1..]);
+    let mut styles = common::installed(&Code::with_power(Power::Hertz)[1..]);
     styles.retain(|code| code.is_first_variant());
     if styles.is_empty() {
         return;

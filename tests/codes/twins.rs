@@ -182,7 +182,7 @@ fn the_collapse_tells_inertia_and_friction_apart_from_errors_of_the_step() {
 
 #[test]
 fn the_table_of_recorded_runs_holds_what_is_read_off_their_series() {
-    let external = Code::of_power(Power::Linear)
+    let external = Code::with_power(Power::Linear)
         .into_iter()
         .filter(|code| !code.is_native());
     for code in external {

@@ -7,7 +7,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 use tristack::study::atlas::{Atlas, NamedPassport, base_name, difference, meanings};
-use tristack::study::convention::FiledPassport;
+use tristack::study::convention::PassportFile;
 
 fn on_file() -> PathBuf {
     project().join("reference/passports")
@@ -138,7 +138,7 @@ fn between<'a>(text: &'a str, open: &'a str, close: &'a str) -> impl Iterator<It
 }
 
 /// What a cell says of a key or property of a passport.
-fn expected(passport: &FiledPassport, name: &str) -> String {
+fn expected(passport: &PassportFile, name: &str) -> String {
     let rounded = |value: f64| {
         ((value * 1e6).round() / 1e6 + 0.0)
             .to_string()

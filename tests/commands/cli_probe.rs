@@ -213,7 +213,7 @@ fn the_hash_of_a_micro_test_sees_parameters_and_arguments() {
     assert!(hashes[0] != hashes[1] && hashes[1] != hashes[2] && hashes[2] != hashes[0]);
     let mut other = test;
     other.convention.restitution *= 1.0 + 1e-12;
-    for name in Code::of_power(Power::Linear) {
+    for name in Code::with_power(Power::Linear) {
         assert_ne!(name.deck_hash(&test), name.deck_hash(&other), "{name}");
     }
 }

@@ -114,7 +114,7 @@ fn a_code_that_is_neither_installed_nor_recorded_is_missing() {
 
 /// Saves the recorded runs of all codes on `bench`, each as `change` makes it.
 fn save_recordings(bench: &Bench, change: impl Fn(&Code, &mut Recording)) {
-    let mut codes = Code::of_power(Power::Linear);
+    let mut codes = Code::with_power(Power::Linear);
     codes.retain(|code| !code.is_native());
     for code in codes {
         save_recording(&bench.path("reference"), &code, |recording| {

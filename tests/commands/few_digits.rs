@@ -72,7 +72,7 @@ fn enough_digits_decide_as_all_of_them_do() {
 /// Otherwise the verdicts of recorded runs would change.
 #[test]
 fn recorded_runs_are_printed_in_full() {
-    for code in Code::of_power(Power::Linear) {
+    for code in Code::with_power(Power::Linear) {
         let few = recording(&code)
             .runs
             .iter()

@@ -144,7 +144,7 @@ fn the_explanation_says_how_mechanics_hold_and_what_the_identity_covers() {
 /// With its libraries, one changed byte of which makes another program of it.
 #[test]
 fn installed_codes_are_covered_with_their_libraries() {
-    let external = Code::of_power(Power::Linear)
+    let external = Code::with_power(Power::Linear)
         .into_iter()
         .filter(|code| !code.is_native());
     let installed = common::installed(&external.collect::<Vec<_>>());

@@ -36,7 +36,7 @@ const NAMES: [&[u8]; 13] = [
 
 /// Native and the first variant of every code.
 fn live() -> Vec<Code> {
-    let codes = Code::of_power(Power::Linear).into_iter();
+    let codes = Code::with_power(Power::Linear).into_iter();
     codes.filter(|code| code.is_first_variant()).collect()
 }
 

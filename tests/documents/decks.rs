@@ -133,7 +133,7 @@ fn cases() -> impl Strategy<Value = Case> {
         stack,
         speeds,
         1e-3..1.0,
-        select(Code::of_power(Power::Linear)),
+        select(Code::with_power(Power::Linear)),
     )
         .prop_map(|(stack, (speed, step, fine, push), restitution, code)| {
             let wall_travel: f64 = 0.5;

@@ -16,7 +16,7 @@ use tristack::study::yield_force::plan;
 #[test]
 fn documented_orders_follow_from_the_manifests() {
     let mut lines = Vec::new();
-    for code in Code::of_power(Power::Linear) {
+    for code in Code::with_power(Power::Linear) {
         for twin in [Twin::Full, Twin::RotatedSpring] {
             for quantity in Quantity::OF_CYLINDERS {
                 for branch in Branch::ALL {
@@ -34,7 +34,7 @@ fn documented_orders_follow_from_the_manifests() {
 
 #[test]
 fn codes_stand_in_the_order_of_their_folders_and_names() {
-    let codes = Code::of_power(Power::Linear);
+    let codes = Code::with_power(Power::Linear);
     let names: Vec<&str> = codes.iter().map(Code::as_str).collect();
     let built_in = [
         "native",

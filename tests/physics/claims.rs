@@ -364,7 +364,7 @@ fn native_reproduction() -> Reproduction {
         interrupt: &interrupt,
     };
     let native = [SelectedCode::find(Code::native())];
-    let declared = SettledCode::of_power(Power::Linear);
+    let declared = SettledCode::with_power(Power::Linear);
     let names = [SettledCode::native()];
     let stacks = [0.12, 0.25, CRITICAL_FRICTION, 0.3, 0.5]
         .iter()

@@ -95,7 +95,7 @@ fn asymmetry(pyramid: &Pyramid, cylinders: &[Cylinder]) -> f64 {
 
 /// The external codes that build pyramids.
 fn builders() -> Vec<Code> {
-    let codes = Code::of_power(Power::Linear).into_iter().skip(1);
+    let codes = Code::with_power(Power::Linear).into_iter().skip(1);
     codes.filter(|code| code.builds_pyramids()).collect()
 }
 

@@ -23,7 +23,7 @@ impl CodeOptions {
         let Some(other) = named.find(|code| !code.has_power(power)) else {
             return Ok(self.named.clone());
         };
-        let names: Vec<String> = Code::of_power(power)
+        let names: Vec<String> = Code::with_power(power)
             .into_iter()
             .map(|code| code.to_string())
             .collect();
@@ -42,7 +42,7 @@ impl CodeOptions {
 /// Returns the named codes, each of which must be installed, or every code with the paper's law if none is named.
 pub(in crate::cli) fn selected_codes(named: &[Code]) -> Result<Vec<SelectedCode>, CliError> {
     if named.is_empty() {
-        return Ok(find_all(&Code::of_power(Power::Linear)));
+        return Ok(find_all(&Code::with_power(Power::Linear)));
     }
     let found = find_all(&Code::side_by_side(named)?)
         .into_iter()

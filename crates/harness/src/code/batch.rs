@@ -55,7 +55,7 @@ impl<'a, T: Task> Batch<'a, T> {
     }
 
     /// Number of tasks up to the last reported one. Those beyond it were never started.
-    pub(crate) fn settled(&self) -> usize {
+    pub(crate) fn finished(&self) -> usize {
         let last = self.reported.iter().rposition(|&reported| reported);
         last.map_or(0, |index| index + 1)
     }
@@ -72,7 +72,7 @@ impl<'a, T: Task> Batch<'a, T> {
         }
         let outcome = self.run_process(context, report);
         self.harvest(report);
-        let delivered = self.settled();
+        let delivered = self.finished();
         for index in 0..delivered {
             if !self.reported[index] {
                 self.fail(index, FailureKind::Skipped, report);

@@ -61,7 +61,7 @@ impl Code {
 
     /// Returns the codes of this program whose normal force grows with this power of the overlap; that of the native
     /// code may grow with any.
-    pub fn of_power(power: Power) -> Vec<Self> {
+    pub fn with_power(power: Power) -> Vec<Self> {
         let mut codes = Self::built_in();
         codes.retain(|code| code.has_power(power));
         codes

@@ -47,7 +47,7 @@ impl ExternalCode {
             if failed && all_or_nothing {
                 return;
             }
-            next += batch.settled();
+            next += batch.finished();
         }
     }
 

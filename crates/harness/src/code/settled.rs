@@ -42,8 +42,8 @@ impl SettledCode {
 
     /// Returns the codes of this program whose normal force grows with this power of the overlap, as their manifests
     /// declare them; that of the native code may grow with any.
-    pub fn of_power(power: Power) -> Vec<Self> {
-        let codes = Code::of_power(power).into_iter();
+    pub fn with_power(power: Power) -> Vec<Self> {
+        let codes = Code::with_power(power).into_iter();
         codes.filter_map(|code| code.as_declared()).collect()
     }
 

@@ -72,7 +72,7 @@ fn preparation() -> PreparationStudy {
 
 /// Returns the rows of every code at every friction; those of LAMMPS have failed.
 fn judgements() -> Vec<Judgement> {
-    let codes = Code::of_power(Power::Linear).into_iter();
+    let codes = Code::with_power(Power::Linear).into_iter();
     let rows = codes.flat_map(|code| {
         let force = (code != Code::named("lammps").unwrap()).then_some(4.0);
         FRICTIONS.map(|mu| judgement(code.clone(), mu, force))

@@ -140,7 +140,7 @@ mod tests {
 
     #[test]
     fn every_run_of_the_study_is_valid_and_short_enough_for_every_day() {
-        for workload in convergence_workloads(&SettledCode::of_power(Power::Linear)) {
+        for workload in convergence_workloads(&SettledCode::with_power(Power::Linear)) {
             let native = workload.code.is_native();
             assert_eq!(workload.tasks.len(), if native { 11 } else { 9 });
             for case in &workload.tasks {

@@ -171,7 +171,7 @@ pub fn reproduce(
 
 /// Adds the other codes with linear springs whose manifests declare the whole convention, and sorts all by name.
 fn with_the_rest(settled: &[SettledCode]) -> Vec<SettledCode> {
-    let rest = Code::of_power(Power::Linear).into_iter();
+    let rest = Code::with_power(Power::Linear).into_iter();
     let rest = rest.filter(|code| !settled.iter().any(|own| own.name() == code));
     let mut all = settled.to_vec();
     all.extend(rest.filter_map(|code| code.as_declared()));

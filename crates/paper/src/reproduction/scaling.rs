@@ -180,7 +180,7 @@ mod tests {
 
     #[test]
     fn stacks_that_do_not_yield_are_not_planned() {
-        let rows = scaling_measurements(&SettledCode::of_power(Power::Linear));
+        let rows = scaling_measurements(&SettledCode::with_power(Power::Linear));
         assert!(rows.iter().all(|row| row.cases.len() == 5));
         assert!(rows.len() > 6 * 15);
     }

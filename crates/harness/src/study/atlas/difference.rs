@@ -2,7 +2,7 @@
 
 use super::meanings::{base_name, meanings};
 use crate::study::Verdict;
-use crate::study::convention::{ArmEffect, FiledPassport, PropertyRow, TOLERANCE};
+use crate::study::convention::{ArmEffect, PassportFile, PropertyRow, TOLERANCE};
 
 /// Everything in which two passports differ.
 #[derive(Debug, Clone, PartialEq)]
@@ -71,7 +71,7 @@ impl Change {
 
 /// Compares the passports `before` and `after`. Rules in words differ if their words do; numbers differ by more than
 /// their uncertainties and the tolerance between a property and its declaration.
-pub fn difference(before: &FiledPassport, after: &FiledPassport) -> Difference {
+pub fn difference(before: &PassportFile, after: &PassportFile) -> Difference {
     let further = after.convention.iter();
     let further = further.filter(|own| before.key(&own.key).is_none());
     let keys = before.convention.iter().chain(further);

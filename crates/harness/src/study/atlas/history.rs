@@ -3,7 +3,7 @@
 use super::difference::{Difference, difference};
 use super::version::version_order;
 use crate::study::Verdict;
-use crate::study::convention::{FiledPassport, UnreadablePassport, permanent_name, plain};
+use crate::study::convention::{PassportFile, UnreadablePassport, permanent_name, plain};
 use std::collections::BTreeMap;
 
 /// A passport with the name of its file.
@@ -14,7 +14,7 @@ pub struct NamedPassport {
     /// Its JSON.
     pub text: Vec<u8>,
     /// The passport that this JSON holds.
-    pub passport: FiledPassport,
+    pub passport: PassportFile,
 }
 
 /// Passports in the order of program, style, version and date.
@@ -43,7 +43,7 @@ impl NamedPassport {
     /// # Errors
     /// If it is no passport.
     pub fn read(text: Vec<u8>) -> Result<Self, UnreadablePassport> {
-        let passport = FiledPassport::read(&text)?;
+        let passport = PassportFile::read(&text)?;
         let name = permanent_name(&passport, &text);
         Ok(Self {
             name,

@@ -3,7 +3,7 @@
 use super::history::{Atlas, NamedPassport};
 use crate::code::ConventionKey;
 use crate::model::{Arms, ContactConvention, Stack};
-use crate::study::convention::FiledPassport;
+use crate::study::convention::PassportFile;
 use crate::theory::quasistatic_limit;
 
 /// Number of frictions at which curves are computed.
@@ -49,7 +49,7 @@ pub struct StiffnessLaw {
 impl StiffnessLaw {
     /// Returns the law of the stiffness `name`, such as `floor_tangential_stiffness`. A normal force K overlap^p has
     /// the stiffness p K overlap^(p − 1).
-    pub fn of(passport: &FiledPassport, name: &str) -> Option<Self> {
+    pub fn of(passport: &PassportFile, name: &str) -> Option<Self> {
         let number = |name: &str| passport.property(name).map(|row| row.measured);
         let coefficient = number(name)??;
         let power = name

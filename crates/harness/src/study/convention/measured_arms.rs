@@ -1,6 +1,6 @@
 //! What moves the limit of a code, read from its passport: arms, and whether springs turn.
 
-use super::filed::{FiledPassport, KeyRow, UnreadablePassport};
+use super::passport_file::{KeyRow, PassportFile, UnreadablePassport};
 use crate::code::ConventionKey;
 use crate::model::{Arms, ContactConvention, HistoryUpdate, InvalidValue};
 use crate::study::Verdict;
@@ -44,7 +44,7 @@ impl MeasuredArms {
     /// If it is not a passport, an arm is unknown or out of range, or anything but an arm differs from what was asked
     /// for.
     pub fn of_passport(text: &[u8]) -> Result<Self, UnusablePassport> {
-        let passport = FiledPassport::read(text)?;
+        let passport = PassportFile::read(text)?;
         let mut properties = passport.properties.iter();
         // An arm that is not as declared is still known as measured.
         let other = properties

@@ -9,7 +9,6 @@ mod clock;
 mod contact_frame;
 mod cycle;
 mod experiments;
-mod filed;
 mod finding;
 mod growth;
 mod linear_form;
@@ -18,6 +17,7 @@ mod measured_arms;
 mod micro_tests;
 mod normal;
 mod passport;
+mod passport_file;
 mod plan;
 mod power;
 mod probe;
@@ -31,10 +31,6 @@ mod space;
 mod spring_shape;
 mod tangential;
 
-pub(crate) use filed::schema_of;
-pub use filed::{
-    ArmEffect, FiledPassport, KeyRow, PropertyRow, UnreadablePassport, permanent_name, plain,
-};
 pub use finding::{Finding, TOLERANCE};
 pub use measured::{
     Findings, ProbeError, Probed, contradictions, probe_all, probe_records, read_probe,
@@ -43,6 +39,10 @@ pub(crate) use measured::{arms_are_measured, is_contradicted, other_program};
 pub use measured_arms::{MeasuredArms, UnusablePassport};
 pub(crate) use micro_tests::ask;
 pub use passport::{ArmEffects, MeasuredKey, PASSPORT, Passport, passport, reservations};
+pub(crate) use passport_file::schema_of;
+pub use passport_file::{
+    ArmEffect, KeyRow, PassportFile, PropertyRow, UnreadablePassport, permanent_name, plain,
+};
 pub(crate) use probe::ROUNDS;
 pub use probe::probe;
 pub(crate) use regression::fit_rows;

@@ -1,4 +1,4 @@
-//! The normal law: stiffness, damping, and the times to which overlap and velocity belong.
+//! The linear normal law: stiffness, damping, and the times to which overlap and velocity belong.
 
 use super::contact_frame::ContactRow;
 use super::growth::exponent;
@@ -6,7 +6,7 @@ use super::regression::{Measured, deviations, fit};
 
 /// f_n = k_n δ(t + o dt) − η_n v_n(t − λ dt).
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct NormalLaw {
+pub struct LinearNormalLaw {
     /// k_n.
     pub stiffness: Measured,
     /// η_n.
@@ -19,7 +19,7 @@ pub struct NormalLaw {
     lag_rate: f64,
 }
 
-impl NormalLaw {
+impl LinearNormalLaw {
     /// Fits rows with two time steps.
     ///
     /// With v_n half a step before δ_n, the force is A δ_n − B v_n with A = k_n/(1 + q dt) and
@@ -88,7 +88,7 @@ fn slopes(rows: &[ContactRow]) -> [Measured; 2] {
 
 /// The fraction of a pulling normal force that is exerted: f_n/(k_n δ − η_n v_n) in the first row of a fast
 /// separation.
-pub fn pull(rows: &[ContactRow], law: &NormalLaw) -> Measured {
+pub fn pull(rows: &[ContactRow], law: &LinearNormalLaw) -> Measured {
     let Some(row) = rows.first() else {
         return Measured::UNKNOWN;
     };

@@ -98,7 +98,7 @@ pub fn reservations(findings: &Findings) -> Vec<String> {
 /// The passport of `code` from the `findings` of its probe.
 pub fn passport<'a>(code: &Code, findings: &'a Findings) -> Passport<'a> {
     let measured = &findings.measured;
-    let others = Code::of_power(code.law().power)
+    let others = Code::with_power(code.law().power)
         .into_iter()
         .filter(|other| other.is_built_in() && !other.accepts_any_convention() && other != code);
     let alike = |keys: fn(ConventionKey) -> bool| -> Vec<Code> {

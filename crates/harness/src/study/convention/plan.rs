@@ -5,8 +5,8 @@ use super::contact_frame::{ContactRow, contact_rows};
 use super::experiments::{self, ContactKind};
 use super::finding::Property;
 use super::linear_form::sticking;
-use super::normal::{self, NormalLaw, pull};
-use super::power::NormalPower;
+use super::normal::{self, LinearNormalLaw, pull};
+use super::power::NormalPowerLaw;
 use super::properties::{growing_properties, power_properties};
 use super::properties::{growth, normal_properties, sliding_properties, tangential_properties};
 use super::regression::{Measured, fit};
@@ -25,7 +25,7 @@ const SHARES: [f64; 2] = [0.0, 1.0];
 pub type TestedMotion<'a> = (&'a ContactTest, &'a Motion);
 
 /// The micro-tests of one kind.
-pub struct Plan {
+pub struct MicroTests {
     kind: ContactKind,
     convention: ContactConvention,
     tests: Vec<ContactTest>,
@@ -38,7 +38,7 @@ const SEPARATING: usize = 6;
 const SLIDING: usize = 7;
 const GENTLE: usize = 8;
 
-impl Plan {
+impl MicroTests {
     /// The tests of `kind` for a code with the given convention.
     pub fn new(kind: ContactKind, convention: &ContactConvention) -> Self {
         let mut tests = experiments::common(kind, convention);
@@ -106,10 +106,10 @@ impl Plan {
     ) -> Normal {
         let (coarse, fine, mass) = (coarse.concat(), fine.concat(), clock.mass.value);
         match self.convention.law.is_linear() {
-            true => Normal::Linear(NormalLaw::read(&coarse, &fine, mass)),
+            true => Normal::Linear(LinearNormalLaw::read(&coarse, &fine, mass)),
             false => {
                 let mass = self.kind.effective_mass(mass);
-                Normal::Power(NormalPower::read(&[coarse, fine].concat(), mass))
+                Normal::Power(NormalPowerLaw::read(&[coarse, fine].concat(), mass))
             }
         }
     }
@@ -154,9 +154,9 @@ fn rounded(spin: f64) -> f64 {
 /// The normal law of one kind, in the form that the declaration asks for.
 enum Normal {
     /// Linear; any other law shows as a deviation.
-    Linear(NormalLaw),
+    Linear(LinearNormalLaw),
     /// Any power of the overlap.
-    Power(NormalPower),
+    Power(NormalPowerLaw),
 }
 
 impl Normal {
@@ -177,7 +177,7 @@ impl Normal {
 
 /// The laws of one kind.
 pub struct Laws {
-    plan: Plan,
+    plan: MicroTests,
     normal: Normal,
     pull: Measured,
     tangential: TangentialLaw,

@@ -4,10 +4,9 @@ use super::beside::{Rows, fit_beside};
 use super::contact_frame::ContactRow;
 use super::regression::{Measured, deviations};
 use super::shape::Growth;
+use crate::model::Power;
 
-/// Exponents of the force from which the search begins.
-const POWERS: [f64; 5] = [1.0, 1.25, 1.5, 1.75, 2.0];
-/// Growths of the damping from which it begins, in units of that of the stiffness p − 1: constant damping, constant
+/// Growths of the damping from which the search begins, in units of that of the stiffness p − 1: constant damping, constant
 /// damping ratio, viscoelastic damping.
 const DAMPINGS: [f64; 3] = [0.0, 0.5, 1.0];
 /// Step over which slopes are taken, and rounds of Gauss–Newton, each of which gains at least two digits.
@@ -18,7 +17,7 @@ const COEFFICIENTS: usize = 2;
 
 /// f_n = K δᵖ(t + o dt) − η_n δˢ v_n(t − λ dt).
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct NormalPower {
+pub struct NormalPowerLaw {
     /// p.
     pub exponent: Measured,
     /// K.
@@ -37,7 +36,7 @@ pub struct NormalPower {
     mass: f64,
 }
 
-impl NormalPower {
+impl NormalPowerLaw {
     /// Fits rows with two time steps; `mass` is the effective mass of the contact.
     pub fn read(rows: &[ContactRow], mass: f64) -> Self {
         let pressed: Vec<&ContactRow> = rows.iter().filter(|row| row.normal_force > 0.0).collect();
@@ -90,15 +89,16 @@ impl NormalPower {
     }
 }
 
-/// Start of the search: the exponents of the table that fit best, and the lead and lag of a code that is timed as
+/// Start of the search: the powers and growths of the damping that fit best, and the lead and lag of a code that is timed as
 /// usual.
 fn start(with: &impl Fn([f64; 4]) -> Rows) -> [f64; 4] {
     let left = |numbers: &[f64; 4]| {
         deviations(&with(*numbers), COEFFICIENTS).map_or(f64::INFINITY, |(mean, _)| mean)
     };
-    let powers = POWERS
-        .iter()
-        .flat_map(|&power| DAMPINGS.map(|damping| [power, damping * (power - 1.0), 0.0, 0.5]));
+    let powers = Power::ALL
+        .map(Power::value)
+        .into_iter()
+        .flat_map(|power| DAMPINGS.map(|damping| [power, damping * (power - 1.0), 0.0, 0.5]));
     let best = powers.min_by(|one, other| left(one).total_cmp(&left(other)));
     best.unwrap_or([1.0, 0.0, 0.0, 0.5])
 }

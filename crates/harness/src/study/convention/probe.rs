@@ -5,7 +5,7 @@ use super::contact_frame::contact_rows;
 use super::cycle;
 use super::experiments::{self, ContactKind};
 use super::finding::Property;
-use super::plan::{Laws, Plan, TestedMotion};
+use super::plan::{Laws, MicroTests, TestedMotion};
 use super::space;
 use crate::code::Declaration;
 use crate::model::ContactTest;
@@ -26,9 +26,9 @@ pub fn probe<E>(
     mut run: impl FnMut(&[ContactTest]) -> Result<Vec<Motion>, E>,
 ) -> Result<Vec<Property>, E> {
     let convention = &declared.convention;
-    let plans = CONTACT_KINDS.map(|kind| Plan::new(kind, convention));
+    let plans = CONTACT_KINDS.map(|kind| MicroTests::new(kind, convention));
     let turning = experiments::turning(convention);
-    let mut tests: Vec<ContactTest> = plans.iter().flat_map(Plan::tests).copied().collect();
+    let mut tests: Vec<ContactTest> = plans.iter().flat_map(MicroTests::tests).copied().collect();
     tests.push(turning);
     let free = tests.len();
     tests.extend(cycle::tests(convention));

@@ -5,8 +5,8 @@ use super::finding::{CUBED_TURN, EXPONENT, Property, TOLERANCE};
 use super::finding::{
     FORCE_EXPONENT, NORMAL_DAMPING_EXPONENT, TANGENTIAL_DAMPING_EXPONENT, TANGENTIAL_EXPONENT,
 };
-use super::normal::NormalLaw;
-use super::power::NormalPower;
+use super::normal::LinearNormalLaw;
+use super::power::NormalPowerLaw;
 use super::regression::Measured;
 use super::sliding::SlidingLaw;
 use super::tangential::TangentialLaw;
@@ -58,7 +58,7 @@ fn at(kind: ContactKind, rows: impl IntoIterator<Item = Row>) -> Vec<Property> {
 /// Properties of the normal force at `kind`; only `pull` differs between codes.
 pub fn normal_properties(
     kind: ContactKind,
-    law: &NormalLaw,
+    law: &LinearNormalLaw,
     pull: Measured,
     test: &ContactTest,
 ) -> Vec<Property> {
@@ -78,7 +78,7 @@ pub fn normal_properties(
 /// without a declared value: no limit depends on it.
 pub fn power_properties(
     kind: ContactKind,
-    law: &NormalPower,
+    law: &NormalPowerLaw,
     pull: Measured,
     test: &ContactTest,
 ) -> Vec<Property> {
@@ -221,7 +221,7 @@ pub fn tangential_properties(
 pub fn growing_properties(
     kind: ContactKind,
     law: &TangentialLaw,
-    normal: &NormalPower,
+    normal: &NormalPowerLaw,
     test: &ContactTest,
 ) -> Vec<Property> {
     let Some(shape) = law.shape else {
@@ -275,7 +275,7 @@ fn share(yes: bool) -> f64 {
 }
 
 /// κ = p K/k_t.
-fn stiffness_ratio(normal: &NormalPower, law: &TangentialLaw) -> Measured {
+fn stiffness_ratio(normal: &NormalPowerLaw, law: &TangentialLaw) -> Measured {
     let (p, k) = (normal.exponent, normal.stiffness);
     let uncertainty = (p.value * k.uncertainty).hypot(k.value * p.uncertainty);
     Measured::new(p.value * k.value, uncertainty).over(law.stiffness)

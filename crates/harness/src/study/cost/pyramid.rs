@@ -46,7 +46,7 @@ pub struct PyramidCost {
 impl Default for PyramidBench {
     /// About 1, 2, 5 and 10 thousand cylinders, with every code that builds pyramids; some minutes.
     fn default() -> Self {
-        let codes = Code::of_power(Power::Linear).into_iter();
+        let codes = Code::with_power(Power::Linear).into_iter();
         Self {
             rows: vec![44, 62, 99, 140],
             codes: codes

@@ -61,7 +61,7 @@ pub struct StackCost {
 /// Returns the installed codes, each in its first variant and as declared: keys that a manifest leaves out do not
 /// change the duration of a step.
 pub fn installed_codes() -> Vec<SettledCode> {
-    let codes = Code::of_power(Power::Linear).into_iter();
+    let codes = Code::with_power(Power::Linear).into_iter();
     let installed = codes.filter(|code| code.is_first_variant() && code.find().is_some());
     installed.map(|code| code.unmeasured("")).collect()
 }

@@ -144,7 +144,7 @@ pub(super) fn convention(code: &SettledCode) -> ContactConvention {
     if !code.name().is_native() {
         return own;
     }
-    let others = Code::of_power(Power::Linear).into_iter().skip(1);
+    let others = Code::with_power(Power::Linear).into_iter().skip(1);
     let others = others.filter_map(|other| Some(other.as_declared()?.convention()));
     let mut others = others.filter(|other| other.arms == own.arms);
     others.next().unwrap_or(own)

@@ -91,7 +91,7 @@ mod tests {
 
     #[test]
     fn seven_limits_stand_behind_the_styles_of_hertz() {
-        let mut styles = SettledCode::of_power(Power::Hertz);
+        let mut styles = SettledCode::with_power(Power::Hertz);
         styles.retain(|code| !code.name().accepts_any_convention());
         let styles: Vec<_> = styles
             .into_iter()

@@ -439,7 +439,7 @@ mod tests {
     #[test]
     fn walls_of_the_figure_are_gentle_as_they_are() {
         let profile = crate::study::yield_force::Profile::Standard;
-        for plan in profile.measurements(&SettledCode::of_power(Power::Linear)) {
+        for plan in profile.measurements(&SettledCode::with_power(Power::Linear)) {
             let scale = plan.limit.z.unwrap().min(plan.limit.wall_travel.unwrap());
             let speeds = plan.cases.iter().map(|case| case.protocol.wall_speed);
             let expected = SPEEDS.map(|speed| rounded(speed * scale));

@@ -130,7 +130,7 @@ mod tests {
     #[test]
     fn every_stack_of_the_figure_yields_for_every_code_and_every_case_is_valid() {
         for profile in [Profile::Standard, Profile::Paper, Profile::Literal] {
-            for measurement in profile.measurements(&SettledCode::of_power(Power::Linear)) {
+            for measurement in profile.measurements(&SettledCode::with_power(Power::Linear)) {
                 assert!(!measurement.cases.is_empty(), "{:?}", measurement.stack);
                 for case in &measurement.cases {
                     case.validate().unwrap();
@@ -141,7 +141,7 @@ mod tests {
 
     #[test]
     fn the_paper_profile_has_one_literal_point_for_every_external_code() {
-        let measurements = Profile::Paper.measurements(&SettledCode::of_power(Power::Linear));
+        let measurements = Profile::Paper.measurements(&SettledCode::with_power(Power::Linear));
         let literal = |code| {
             let own = measurements
                 .iter()
@@ -152,7 +152,7 @@ mod tests {
         assert_eq!(literal(Code::named("lammps").unwrap()), 1);
         assert_eq!(
             measurements.len(),
-            75 + Code::of_power(Power::Linear).len() - 1
+            75 + Code::with_power(Power::Linear).len() - 1
         );
     }
 }

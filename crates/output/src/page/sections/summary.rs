@@ -323,7 +323,7 @@ pub(crate) fn points(judgements: &[Judgement]) -> DataTable<'_> {
     })
     .means("exact quasi-static limit under the paper's convention")
     .shown_as("exact limit", digits::<7>);
-    let built_in = Code::of_power(Power::Linear);
+    let built_in = Code::with_power(Power::Linear);
     let codes = built_in
         .iter()
         .chain(judgements.iter().map(|row| &row.code));

@@ -12,7 +12,7 @@ const DIGEST_DIGITS: usize = 8;
 
 /// A passport, read. The fields are described by `tristack schema passport`.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
-pub struct FiledPassport {
+pub struct PassportFile {
     /// The command that made it.
     pub command: String,
     /// Name of the code.
@@ -113,7 +113,7 @@ pub enum UnreadablePassport {
     OtherSchema(String),
 }
 
-impl FiledPassport {
+impl PassportFile {
     /// Reads a passport from its JSON `text`.
     ///
     /// # Errors
@@ -172,7 +172,7 @@ fn rows<'de, D: Deserializer<'de>, T: Deserialize<'de>>(input: D) -> Result<Vec<
 
 /// The permanent name of a passport with this JSON `text`: program, version, style, and the first digits of its
 /// SHA-256.
-pub fn permanent_name(passport: &FiledPassport, text: &[u8]) -> String {
+pub fn permanent_name(passport: &PassportFile, text: &[u8]) -> String {
     let digest = sha256_hex(text);
     let parts = [
         &passport.software,

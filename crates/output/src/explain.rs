@@ -5,7 +5,7 @@ use super::number::{digits, friction, optional, relative, significant};
 use super::table::Columns;
 use crate::model::exact;
 use crate::runs::RunSummary;
-use crate::series::Law;
+use crate::series::MechanicalLaw;
 use crate::study::yield_force::{
     Budget, ConvergenceOrder, Evidence, Extrapolation, Judgement, Method, TwinForce,
 };
@@ -103,7 +103,7 @@ fn mechanics(runs: &[RunSummary]) -> String {
     if runs.is_empty() {
         return String::new();
     }
-    let laws = Law::ALL.map(|law| {
+    let laws = MechanicalLaw::ALL.map(|law| {
         let deviations = runs
             .iter()
             .filter_map(|run| run.mechanics.as_ref()?.0.get(&law));

@@ -5,7 +5,7 @@ use super::table::{Columns, DataTable};
 use super::{budget, crosscheck};
 use crate::model::{Case, Preparation};
 use crate::runs::RunSummary;
-use crate::series::Law;
+use crate::series::MechanicalLaw;
 use crate::study::yield_force::{Evidence, Judgement, TwinForce};
 
 /// A judgement, the same force from runs with more digits, and what the identity of an installed code covers.
@@ -96,7 +96,7 @@ pub(super) fn explained_runs(judgements: &[Judgement]) -> DataTable<'_> {
     })
     .means("factor by which an error of the recorded forces is amplified in the slip onset")
     .shown_as("amplified", |factor| format!("{factor:.0} x"));
-    for law in Law::ALL {
+    for law in MechanicalLaw::ALL {
         let (name, meaning) = named(law);
         columns = columns
             .number(name, "1", move |(_, (_, run))| {
@@ -109,21 +109,21 @@ pub(super) fn explained_runs(judgements: &[Judgement]) -> DataTable<'_> {
 }
 
 /// Returns name and meaning of the column with the deviation of a run from a law of mechanics.
-fn named(law: Law) -> (&'static str, &'static str) {
+fn named(law: MechanicalLaw) -> (&'static str, &'static str) {
     match law {
-        Law::ForceBalance => (
+        MechanicalLaw::ForceBalance => (
             "force_balance",
             "largest deviation from the balance of forces, in units of the allowed one; absent where it is not tested",
         ),
-        Law::MirrorSymmetry => (
+        MechanicalLaw::MirrorSymmetry => (
             "mirror_symmetry",
             "the same for the mirror symmetry of the stack",
         ),
-        Law::WallOverlap => (
+        MechanicalLaw::WallOverlap => (
             "wall_overlap",
             "the same for the wall force against the overlap of cylinder 1 with the wall",
         ),
-        Law::FloorOverlap => (
+        MechanicalLaw::FloorOverlap => (
             "floor_overlap",
             "the same for the floor force against the overlap with the floor",
         ),

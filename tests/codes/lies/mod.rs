@@ -15,7 +15,7 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use tristack::code::SettledCode;
 use tristack::model::{ContactConvention, Stack};
-use tristack::series::Law;
+use tristack::series::MechanicalLaw;
 use tristack::study::Verdict;
 
 const ROUNDS: usize = 300;
@@ -249,10 +249,10 @@ const NO_ONSET: &str = "between slip and peak";
 
 /// The checks that are asserted to be needed, by a part of their notes.
 const CHECKS: [&str; 7] = [
-    Law::ForceBalance.as_str(),
-    Law::MirrorSymmetry.as_str(),
-    Law::WallOverlap.as_str(),
-    Law::FloorOverlap.as_str(),
+    MechanicalLaw::ForceBalance.as_str(),
+    MechanicalLaw::MirrorSymmetry.as_str(),
+    MechanicalLaw::WallOverlap.as_str(),
+    MechanicalLaw::FloorOverlap.as_str(),
     "does not begin at rest",
     NO_ONSET,
     "are not seen to carry",

@@ -21,7 +21,7 @@ use std::f64::consts::PI;
 /// A law of mechanics.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum Law {
+pub enum MechanicalLaw {
     /// The floor carries the wall force and three weights. Cylinders 2 and 3 carry cylinder 1 and are not pushed
     /// aside, with the normal forces of their overlaps and the shear that makes them turn as they do.
     ForceBalance,
@@ -33,7 +33,7 @@ pub enum Law {
     FloorOverlap,
 }
 
-impl Law {
+impl MechanicalLaw {
     /// Every law.
     pub const ALL: [Self; 4] = [
         Self::ForceBalance,
@@ -81,7 +81,7 @@ impl Deviation {
 /// The laws that could be checked in a series, each with the largest deviation from it.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(transparent)]
-pub struct Mechanics(pub BTreeMap<Law, Deviation>);
+pub struct Mechanics(pub BTreeMap<MechanicalLaw, Deviation>);
 
 impl Mechanics {
     /// Checks `series` against every law, up to the row at which the floor begins to slide.
@@ -98,14 +98,14 @@ impl Mechanics {
             ..Stack::of(case, series.samples())
         };
         let mut mechanics = Self::of_stack(&stack, series);
-        mechanics.0.remove(&Law::WallOverlap);
+        mechanics.0.remove(&MechanicalLaw::WallOverlap);
         mechanics
     }
 
     fn of_stack(stack: &Stack<'_>, series: &Series) -> Self {
         let case = stack.case;
         let samples = sticking_rows(series.samples(), &case.stack);
-        let mut worst: BTreeMap<Law, (f64, Sides)> = BTreeMap::new();
+        let mut worst: BTreeMap<MechanicalLaw, (f64, Sides)> = BTreeMap::new();
         for row in 1..samples.len() {
             for (law, sides) in stack.sides(samples, row) {
                 let ratio = sides.excess();
@@ -125,7 +125,7 @@ impl Mechanics {
     }
 
     /// The laws that do not hold.
-    pub fn violations(&self) -> impl Iterator<Item = (Law, &Deviation)> {
+    pub fn violations(&self) -> impl Iterator<Item = (MechanicalLaw, &Deviation)> {
         let deviations = self.0.iter().map(|(law, deviation)| (*law, deviation));
         deviations.filter(|(_, deviation)| !deviation.is_allowed())
     }
@@ -253,27 +253,29 @@ impl<'a> Stack<'a> {
     }
 
     /// Returns both sides of every law that can be checked in `row` of `samples`.
-    fn sides(&self, samples: &[Sample], row: usize) -> Vec<(Law, Sides)> {
+    fn sides(&self, samples: &[Sample], row: usize) -> Vec<(MechanicalLaw, Sides)> {
         let sample = &samples[row];
         let five = FiveRows::around(samples, row, self.rounding.coordinate)
             .filter(|five| self.is_smooth && self.has_its_speed(five));
         let reported = self.reported;
         let heights = five.filter(|_| reported.heights());
         let mut sides = vec![
-            (Law::ForceBalance, self.vertical(sample, heights)),
-            (Law::MirrorSymmetry, self.mirror(sample)),
+            (MechanicalLaw::ForceBalance, self.vertical(sample, heights)),
+            (MechanicalLaw::MirrorSymmetry, self.mirror(sample)),
         ];
         if reported.top {
-            sides.push((Law::WallOverlap, self.wall(sample, five)));
+            sides.push((MechanicalLaw::WallOverlap, self.wall(sample, five)));
         }
         if reported.bottom {
             let places = 0..usize::from(self.case.stack.bodies);
-            sides.extend(places.map(|place| (Law::FloorOverlap, self.floor(sample, five, place))));
+            sides.extend(
+                places.map(|place| (MechanicalLaw::FloorOverlap, self.floor(sample, five, place))),
+            );
         }
         if let Some(five) = five.filter(|five| reported.pair && self.keeps_its_contacts(five)) {
             let cylinders = self.cylinders(sample, five);
             let balances = cylinders.into_iter();
-            sides.extend(balances.map(|balance| (Law::ForceBalance, balance)));
+            sides.extend(balances.map(|balance| (MechanicalLaw::ForceBalance, balance)));
         }
         sides
     }

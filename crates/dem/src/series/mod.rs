@@ -27,7 +27,7 @@ pub use estimate::{Departure, Estimate, YieldEstimates};
 pub use frame::{ContactPoint, Frame, Frames, Partner, PlacedBody};
 pub use header::Header;
 pub use header::{ColumnSource, ColumnSources};
-pub use mechanics::{Deviation, Law, Mechanics};
+pub use mechanics::{Deviation, MechanicalLaw, Mechanics};
 pub use motion::{BodyRow, Motion, MotionRow, RowInSpace};
 pub use oscillator::left_of_touch;
 pub use polynomial::{value_at_zero, weights_at_zero};

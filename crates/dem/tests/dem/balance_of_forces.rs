@@ -3,9 +3,9 @@
 
 use tristack_dem::dem::compress_stack;
 use tristack_dem::model::{
-    Case, ContactConvention, Law as ContactLaw, Preparation, Protocol, Sampling, Shortcuts, Stack,
+    Case, ContactConvention, Law, Preparation, Protocol, Sampling, Shortcuts, Stack,
 };
-use tristack_dem::series::{Deviation, Law, Mechanics, Sample, Series};
+use tristack_dem::series::{Deviation, MechanicalLaw, Mechanics, Sample, Series};
 
 const WALL_SPEED: f64 = 1e-5;
 const TIME_STEP: f64 = 0.05;
@@ -40,7 +40,7 @@ fn series(case: &Case) -> Series {
     compress_stack(case, || true).expect("a finite series")
 }
 
-fn deviation(series: &Series, case: &Case, law: Law) -> Deviation {
+fn deviation(series: &Series, case: &Case, law: MechanicalLaw) -> Deviation {
     *Mechanics::read(series, case)
         .0
         .get(&law)
@@ -51,15 +51,15 @@ fn deviation(series: &Series, case: &Case, law: Law) -> Deviation {
 /// period of the stack, they do not bend at all.
 #[test]
 fn rows_at_any_distance_accuse_nobody_who_is_honest() {
-    let hertz = ContactConvention::with_law(ContactLaw::HERTZ);
+    let hertz = ContactConvention::with_law(Law::HERTZ);
     let elastic = ContactConvention {
         restitution: 1.0,
         ..ContactConvention::TURNING
     };
     let of_walls = |floor_ratio| ContactConvention {
-        law: ContactLaw {
+        law: Law {
             floor_ratio,
-            ..ContactLaw::LINEAR
+            ..Law::LINEAR
         },
         ..ContactConvention::TURNING
     };
@@ -113,7 +113,7 @@ fn what_a_short_preparation_leaves_accuses_nobody() {
             ramp_time,
             rest_time,
         };
-        let own = deviation(&series(&case), &case, Law::ForceBalance);
+        let own = deviation(&series(&case), &case, MechanicalLaw::ForceBalance);
         assert!(
             own.is_allowed(),
             "{ramp_time}, {rest_time}, {restitution}: {own:?}"
@@ -177,7 +177,7 @@ fn a_force_that_is_wrong_by_three_times_the_envelope_is_noticed() {
     for interval in [2.0, 6.0] {
         let case = case(interval);
         let honest = series(&case);
-        let own = deviation(&honest, &case, Law::ForceBalance);
+        let own = deviation(&honest, &case, MechanicalLaw::ForceBalance);
         assert!(own.is_allowed());
         let rows = honest.samples().len();
         for wrong in 1..rows.min(1 + (120.0 / interval) as usize) {
@@ -189,7 +189,7 @@ fn a_force_that_is_wrong_by_three_times_the_envelope_is_noticed() {
             row.floor[2][1] += 1.5 * envelope;
             let step = row.step;
             let altered = Series::new(samples, &case).expect("finite numbers");
-            let seen = deviation(&altered, &case, Law::ForceBalance);
+            let seen = deviation(&altered, &case, MechanicalLaw::ForceBalance);
             assert!(!seen.is_allowed(), "row {wrong}, {interval}: {seen:?}");
             assert_eq!(seen.step, step, "{seen:?}");
             let bound = seen.bound / case.stack.stiffness;

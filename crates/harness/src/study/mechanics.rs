@@ -1,7 +1,7 @@
 //! Holds series to the laws of mechanics before anything is concluded from them.
 
 use super::verdict::{Ground, Grounds};
-use crate::series::{Deviation, Law, Mechanics, not_tested};
+use crate::series::{Deviation, MechanicalLaw, Mechanics, not_tested};
 
 impl Grounds {
     /// Adds the violations that the `mechanics` of each run shows, in order, and a doubt where a run was recorded
@@ -38,7 +38,7 @@ impl Grounds {
     }
 }
 
-fn violation(run: usize, law: Law, deviation: &Deviation) -> String {
+fn violation(run: usize, law: MechanicalLaw, deviation: &Deviation) -> String {
     let side = |side: Option<f64>| side.unwrap_or(f64::NAN);
     format!(
         "run {run} breaks {}: at step {} it is {:.9}, and must be {:.9} m g; {:.1e} apart where {:.1e} is allowed",

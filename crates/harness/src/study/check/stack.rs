@@ -6,7 +6,8 @@ use super::factor::{is_about, of_factor, of_friction};
 use super::report::{Grade, Item};
 use crate::model::{Case, Stack};
 use crate::series::{
-    ENOUGH_DIGITS, FloorContact, Law, Mechanics, Sample, Series, YieldEstimates, most_digits,
+    ENOUGH_DIGITS, FloorContact, MechanicalLaw, Mechanics, Sample, Series, YieldEstimates,
+    most_digits,
 };
 
 /// Largest relative deviation of the weight on the floor from that of the stack. What ringing leaves is far smaller.
@@ -99,12 +100,12 @@ const SYMMETRY: &str = "mirror symmetry";
 const WALL_OVERLAP: &str = "wall force against overlap";
 const FLOOR_OVERLAP: &str = "floor force against overlap";
 
-fn name_of(law: Law) -> &'static str {
+fn name_of(law: MechanicalLaw) -> &'static str {
     match law {
-        Law::ForceBalance => BALANCE,
-        Law::MirrorSymmetry => SYMMETRY,
-        Law::WallOverlap => WALL_OVERLAP,
-        Law::FloorOverlap => FLOOR_OVERLAP,
+        MechanicalLaw::ForceBalance => BALANCE,
+        MechanicalLaw::MirrorSymmetry => SYMMETRY,
+        MechanicalLaw::WallOverlap => WALL_OVERLAP,
+        MechanicalLaw::FloorOverlap => FLOOR_OVERLAP,
     }
 }
 

@@ -239,7 +239,7 @@ pub fn properties(
             let each = each.map(|(test, motion)| rows_of(kind, test, motion, velocity_lag));
             each.collect::<Vec<_>>()
         };
-        let law = Law {
+        let law = Reader {
             kind,
             convention: outcomes[0].0.convention,
             stiffness_ratio: outcomes[0].0.stiffness_ratio,
@@ -351,7 +351,7 @@ impl Body {
 
 /// The law by which contacts of one kind are read.
 #[derive(Debug, Clone, Copy)]
-struct Law {
+struct Reader {
     kind: ContactKind,
     convention: ContactConvention,
     stiffness_ratio: f64,
@@ -379,7 +379,7 @@ impl Read {
     }
 }
 
-impl Law {
+impl Reader {
     fn read(&self, row: &Row) -> Read {
         let (law, arms) = match self.kind {
             ContactKind::Pair => (
@@ -721,7 +721,7 @@ fn cross(left: Vector, right: Vector) -> Vector {
 mod tests {
     use super::*;
     use crate::dem::run_contact_test;
-    use crate::model::Law as ContactLaws;
+    use crate::model::Law;
 
     /// The properties of the native code under one convention, read as if another were declared.
     fn read_as(own: ContactConvention, declared: ContactConvention) -> Vec<Property> {
@@ -754,7 +754,7 @@ mod tests {
 
     fn conventions() -> Vec<ContactConvention> {
         let mut all = Vec::new();
-        for law in [ContactLaws::LINEAR, ContactLaws::HERTZ] {
+        for law in [Law::LINEAR, Law::HERTZ] {
             for history_update in HistoryUpdate::ALL {
                 for (coulomb_operand, sliding_spring) in [
                     (CoulombOperand::Spring, SlidingSpring::FollowsLimit),

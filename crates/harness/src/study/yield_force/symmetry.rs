@@ -2,7 +2,7 @@
 
 use crate::dem::compress_stack;
 use crate::model::{Arrangement, Case, PAPER_BODIES};
-use crate::series::{Law, Mechanics};
+use crate::series::{MechanicalLaw, Mechanics};
 
 /// Distance by which one sphere is displaced, small enough for its effect to stay linear.
 const DISTURBANCE: f64 = 1e-9;
@@ -37,6 +37,6 @@ fn growth(case: &Case) -> Option<f64> {
     };
     let series = compress_stack(&disturbed, || true).ok()?;
     let mechanics = Mechanics::read(&series, case);
-    let asymmetry = mechanics.0.get(&Law::MirrorSymmetry)?;
+    let asymmetry = mechanics.0.get(&MechanicalLaw::MirrorSymmetry)?;
     Some(asymmetry.size * case.stack.epsilon() / DISTURBANCE)
 }

@@ -6,7 +6,7 @@ use super::passport_files::LARGEST_PASSPORT;
 use super::{CliError, ExitStatus, tell};
 use crate::code::SettledCode;
 use crate::files::{FileError, Layout, Links, read_bounded};
-use crate::model::{ContactLaw, InvalidValue, Stack, shown};
+use crate::model::{ContactLaw, InvalidValue, Problem, Stack, shown};
 use crate::output::{DataTable, json, judged_series, judged_series_text, junit};
 use crate::series::Series;
 use crate::study::convention::MeasuredArms;
@@ -130,9 +130,10 @@ fn judge(arguments: &SeriesArguments) -> Result<JudgedSeries, CliError> {
         }
     };
     let stack = arguments.stack.stack(convention.law.power)?;
-    let limit = quasistatic_limit(&stack, &convention);
+    let problem = Problem::new(stack, convention)?;
+    let limit = quasistatic_limit(&problem);
     if limit.yield_force.is_none() {
-        return Err(Box::new(no_yield(&stack, &convention, &limit)).into());
+        return Err(Box::new(no_yield(&problem, &limit)).into());
     }
     let wall = convention.wall_law(stack.stiffness_ratio);
     let mut series = at_speeds(arguments, (&stack, &wall))?;

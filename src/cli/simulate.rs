@@ -14,8 +14,8 @@ use crate::code::{
 };
 use crate::files::{FileError, Layout, read_case_with, remove_older, write_atomically};
 use crate::model::{
-    Case, ContactConvention, InvalidValue, PartialCase, PartialProtocol, Protocol, Shortcuts,
-    SideWalls, Stack, shown,
+    Case, ContactConvention, InvalidValue, PartialCase, PartialProtocol, Problem, Protocol,
+    Shortcuts, SideWalls, Stack, shown,
 };
 use crate::output::{commented_case, json, series_columns, simulations, unfinished};
 use crate::paper::published::GivenCase;
@@ -230,8 +230,9 @@ fn case(arguments: &Arguments, code: &SettledCode) -> Result<Case, CliError> {
         .code()
         .check_stiffness_ratio(stack.stiffness_ratio);
     accepted.map_err(as_flag)?;
-    let limit = quasistatic_limit(&stack, &convention);
-    let mut protocol = planned(&limit, &stack, &convention, arguments.speed, arguments.dt)?;
+    let problem = Problem::new(stack, convention).map_err(as_flag)?;
+    let limit = quasistatic_limit(&problem);
+    let mut protocol = planned(&limit, &problem, arguments.speed, arguments.dt)?;
     let accepted = arguments.code().check_shortcuts(arguments.shortcuts);
     accepted.map_err(as_flag)?;
     if let Some(travel) = limit.wall_travel.filter(|_| arguments.shortcuts) {
@@ -250,16 +251,16 @@ fn case(arguments: &Arguments, code: &SettledCode) -> Result<Case, CliError> {
 /// Returns the usual protocol, at a wall speed if one is given.
 fn planned(
     limit: &Limit,
-    stack: &Stack,
-    convention: &ContactConvention,
+    problem: &Problem,
     speed: Option<f64>,
     time_step: f64,
 ) -> Result<Protocol, Box<NoYield>> {
+    let (stack, convention) = (problem.stack(), problem.convention());
     let protocol = match speed {
         Some(speed) => protocol_at_speed(limit, speed, time_step),
         None => planned_protocol(limit, stack, convention, DEFAULT_SPEED, time_step),
     };
-    protocol.ok_or_else(|| Box::new(no_yield(stack, convention, limit)))
+    protocol.ok_or_else(|| Box::new(no_yield(problem, limit)))
 }
 
 /// Completes a case that a file gives in part; the rest is as for a case of the command line.
@@ -267,12 +268,11 @@ fn completed(written: &PartialCase, code: &SettledCode) -> Result<Case, InvalidV
     let own = &written.protocol;
     let convention = written.convention.unwrap_or_else(|| of_files(code));
     let stack = written.stack.in_law(convention.law.power);
-    stack.validate()?;
     let convention = convention.of_bodies(&stack);
-    convention.validate()?;
-    let limit = quasistatic_limit(&stack, &convention);
+    let problem = Problem::new(stack, convention)?;
+    let limit = quasistatic_limit(&problem);
     let time_step = own.time_step.unwrap_or(DEFAULT_TIME_STEP);
-    let planned = planned(&limit, &stack, &convention, own.wall_speed, time_step);
+    let planned = planned(&limit, &problem, own.wall_speed, time_step);
     let mut protocol = planned.map_err(|no_yield| no_yield.as_value())?;
     if let Some(walls) = own.side_walls(stack.epsilon()) {
         protocol = between_side_walls(&protocol, walls);

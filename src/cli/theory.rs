@@ -3,6 +3,7 @@
 use super::options::{ConventionOptions, Format, StackListOptions, positive};
 use super::{CliError, ExitStatus, INTERRUPT};
 use crate::code::SettledCode;
+use crate::model::{InvalidValue, Problem};
 use crate::output::{theories_by_stack, theory};
 use crate::theory::Predictions;
 use clap::Args;
@@ -31,7 +32,10 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
         .convention
         .of(&SettledCode::native(), arguments.stack.bodies())?;
     let stacks = arguments.stack.stacks(convention.law.power)?;
-    let predictions: Vec<Predictions> = Predictions::of_each(&stacks, &convention)
+    let problem = |stack| Problem::new(stack, convention);
+    let problems: Result<Vec<Problem>, InvalidValue> = stacks.into_iter().map(problem).collect();
+    let problems = problems?;
+    let predictions: Vec<Predictions> = Predictions::of_each(&problems)
         .map(|own| match arguments.speed {
             Some(speed) => own.at_speed(speed),
             None => own,
@@ -41,7 +45,7 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
     let people = || theories_by_stack(&predictions);
     let tables = [theory(&predictions)];
     let printed = arguments.format.print(&tables, command, people);
-    Ok(match predictions.len() == stacks.len() {
+    Ok(match predictions.len() == problems.len() {
         true => printed,
         false => ExitStatus::Interrupted,
     })

@@ -79,7 +79,8 @@ impl Problem {
     }
 
     fn limit(&self) -> tristack::theory::Limit {
-        tristack::theory::quasistatic_limit(&self.stack(), &self.convention())
+        let problem = tristack::model::Problem::new(self.stack(), self.convention());
+        tristack::theory::quasistatic_limit(&problem.expect("values in range"))
     }
 
     fn epsilon(&self) -> f64 {

@@ -5,7 +5,7 @@ use crate::at_rest::{onset_and_peak, three_speeds};
 use tristack::code::SettledCode;
 use tristack::dem::{Cylinder, Facing, PlaneWall, Scene, SpringDashpot, compress_stack};
 use tristack::model::{
-    Arms, ContactArms, ContactConvention, Law, PAPER_RESTITUTION, Power, Stack, sha256_hex,
+    Arms, ContactArms, ContactConvention, Law, PAPER_RESTITUTION, Power, Problem, Stack, sha256_hex,
 };
 use tristack::study::yield_force::{Measurement, plan};
 use tristack::theory::LimitCurve;
@@ -244,8 +244,9 @@ fn a_wall_speed_adds_to_onset_and_peak_what_theory_says() {
         (three, ContactConvention::TURNING),
     ] {
         let measurement = plan(&SettledCode::native(), &stack, convention);
-        let curve = LimitCurve::new(&measurement.stack, &measurement.convention);
-        let added = curve.speed_excess(&stack, &measurement.limit).unwrap();
+        let problem = Problem::new(measurement.stack, measurement.convention).unwrap();
+        let curve = LimitCurve::new(&problem);
+        let added = curve.speed_excess(&problem, &measurement.limit).unwrap();
         let found = added_per_speed(&measurement);
         for (expected, found) in [added.onset, added.peak].into_iter().zip(found) {
             // A peak is known to some steps of load in each run, and the second order is left.

@@ -3,7 +3,7 @@
 use crate::common::{Bench, json_rows, standard_output};
 use proptest::prelude::*;
 use tristack::model::HistoryUpdate::{Fixed, Rotated};
-use tristack::model::{Arms, ContactArms, ContactConvention, Stack};
+use tristack::model::{Arms, ContactArms, ContactConvention, Problem, Stack};
 use tristack::theory::{Event, Limit, LoadingOutcome, bracketed_root, quasistatic_limit};
 
 fn stack(mu: f64, stiffness: f64, stiffness_ratio: f64) -> Stack {
@@ -14,10 +14,12 @@ fn stack(mu: f64, stiffness: f64, stiffness_ratio: f64) -> Stack {
 }
 
 fn limit(mu: f64, stiffness: f64, stiffness_ratio: f64) -> Limit {
-    quasistatic_limit(
-        &stack(mu, stiffness, stiffness_ratio),
-        &ContactConvention::TURNING,
-    )
+    let stack = stack(mu, stiffness, stiffness_ratio);
+    limit_under(stack, ContactConvention::TURNING)
+}
+
+fn limit_under(stack: Stack, convention: ContactConvention) -> Limit {
+    quasistatic_limit(&Problem::new(stack, convention).expect("values in range"))
 }
 
 /// docs/theory.md, section 7.3: the onsets by the closed equation (50), the peaks by (55).
@@ -145,7 +147,7 @@ fn peak_is_the_largest_force_of_the_unreduced_balances() {
         (0.35, 0.4, Arms::reciprocal(0.5, -0.3)),
     ] {
         let stack = stack(mu, 1e2, kappa);
-        let limit = quasistatic_limit(&stack, &ContactConvention::with_arms(arms));
+        let limit = limit_under(stack, ContactConvention::with_arms(arms));
         let (onset, peak) = (limit.slip_onset.unwrap(), limit.peak_force.unwrap());
         let from = 2.0 * limit.tangent.unwrap().atan();
         let at_onset = force_at(&stack, &arms, from);
@@ -249,7 +251,7 @@ fn a_stack_that_slid_under_its_own_weight_and_stands_has_a_peak_alone() {
         stiffness_ratio: 0.3,
         ..Stack::paper(0.12, 1e2)
     };
-    let limit = quasistatic_limit(&stack, &ContactConvention::TURNING);
+    let limit = limit_under(stack, ContactConvention::TURNING);
     assert_eq!([limit.slip_onset, limit.wall_travel], [None; 2]);
     assert!((limit.yield_force.unwrap() - 0.608_582_4).abs() < 1e-6);
     let bench = Bench::without_codes();
@@ -288,7 +290,7 @@ proptest! {
         kappa in 0.1..1.2f64,
     ) {
         let stack = Stack { cylinder_friction: mu_d, ..stack(mu, 10f64.powf(stiffness), kappa) };
-        let limit = quasistatic_limit(&stack, &ContactConvention::TURNING);
+        let limit = limit_under(stack, ContactConvention::TURNING);
         let outcome = LoadingOutcome::of(&stack, Rotated).unwrap();
         let yields = outcome.last.event == Event::FloorSlip;
         match (outcome.largest_force.filter(|_| yields), limit.yield_force) {

@@ -3,7 +3,7 @@
 
 use super::Seed;
 use tristack::code::{Code, Task};
-use tristack::model::{Arms, Case, ContactArms, ContactConvention, Stack};
+use tristack::model::{Arms, Case, ContactArms, ContactConvention, Problem, Stack};
 use tristack::study::yield_force::protocol_at_speed;
 use tristack::theory::{Predictions, quasistatic_limit};
 
@@ -40,11 +40,11 @@ pub fn check(data: &[u8]) {
     if stiffness_ratio < SMALLEST_RATIO {
         return;
     }
-    if stack.validate().is_err() || convention.validate().is_err() {
+    let Ok(problem) = Problem::new(stack, convention) else {
         return;
-    }
-    Predictions::new(&stack, &convention);
-    let limit = quasistatic_limit(&stack, &convention);
+    };
+    Predictions::new(&problem);
+    let limit = quasistatic_limit(&problem);
     assert!(limit.yield_force.is_none_or(f64::is_finite));
     let Some(protocol) = protocol_at_speed(&limit, speed, step) else {
         return;

@@ -3,7 +3,7 @@
 use super::number::{digits, friction, rounded, significant};
 use super::table::{Columns, DataTable};
 use crate::experiment::{ContactEstimate, Experiment, Force, ForceRange, Forecast, Forecasted};
-use crate::model::{ContactConvention, Stack, exact};
+use crate::model::exact;
 use crate::study::yield_force::no_yield;
 use crate::theory::quasistatic_limit;
 
@@ -198,14 +198,8 @@ fn conclusion(forecast: &Forecast) -> String {
 
 /// Says why the `chosen` estimate gives no yield, what the stack carries instead, and at which frictions it yields.
 fn no_yield_force(forecast: &Forecast, chosen: &Forecasted) -> String {
-    let experiment = &forecast.experiment;
-    let stack = Stack {
-        cylinder_friction: experiment.mu_d,
-        stiffness_ratio: experiment.kappa,
-        ..Stack::paper(experiment.mu, chosen.stiffness)
-    };
-    let convention = ContactConvention::TURNING;
-    let refused = no_yield(&stack, &convention, &quasistatic_limit(&stack, &convention));
+    let problem = &chosen.problem;
+    let refused = no_yield(problem, &quasistatic_limit(problem));
     let carries = match forecast.range.highest {
         Some(0.0) => "it carries no load".to_owned(),
         _ => format!("{}, {}", over(forecast), forces_between(&forecast.range)),
@@ -218,7 +212,7 @@ fn no_yield_force(forecast: &Forecast, chosen: &Forecasted) -> String {
     });
     format!(
         "no yield force at mu = {}: {}; {carries}{yields}\n",
-        friction(experiment.mu),
+        friction(forecast.experiment.mu),
         refused.reason
     )
 }

@@ -24,7 +24,11 @@ pub fn simulations(runs: &[Run]) -> DataTable<'_> {
             run.case.protocol.preparation,
             Preparation::GravityRamp { .. }
         );
-        (run, estimates, is_ramp.then(|| exact_limit(&run.case)))
+        (
+            run,
+            estimates,
+            is_ramp.then(|| exact_limit(&run.case)).flatten(),
+        )
     });
     protocol(convention(subject()))
         .number("peak_force", "m g", |(_, found, _)| Some(found.peak?.force))
@@ -52,9 +56,9 @@ pub fn simulations(runs: &[Run]) -> DataTable<'_> {
         .rows(rows)
 }
 
-/// Returns the exact limit after a gravity ramp.
-fn exact_limit(case: &Case) -> Limit {
-    quasistatic_limit(&case.stack, &case.convention)
+/// Returns the exact limit after a gravity ramp; `None` if a value of the stack or its convention is out of range.
+fn exact_limit(case: &Case) -> Option<Limit> {
+    Some(quasistatic_limit(&case.problem().ok()?))
 }
 
 fn error((run, found, limit): &Row) -> Option<f64> {
@@ -71,7 +75,7 @@ pub fn unfinished(run: &Run) -> Option<String> {
         (Some(_), None) => "the floor slips, but the force still rises at the end of the run",
         (None, _) => "the run ends before the floor slips, so that there is no yield force",
     };
-    let (case, limit) = (&run.case, exact_limit(&run.case));
+    let (case, limit) = (&run.case, exact_limit(&run.case)?);
     let moved = case.protocol.wall_travel;
     let travels = limit.wall_travel.into_iter().chain(limit.peak_travel);
     let needed = travels.reduce(f64::max)?;

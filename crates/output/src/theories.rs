@@ -12,8 +12,8 @@ pub fn theory(predictions: &[Predictions]) -> DataTable<'_> {
         "A row is one stack with its yield force F by every theory.",
         "`tristack theory`",
     )
-    .stack(|own| own.stack)
-    .number("epsilon", "1", |own| own.stack.epsilon())
+    .stack(|own| *own.problem.stack())
+    .number("epsilon", "1", |own| own.problem.stack().epsilon())
     .means("ε = m g/(k_n r)")
     .number("rigid", "m g", |own| own.rigid.yield_force)
     .means("rigid bodies; absent where infinite")
@@ -69,8 +69,8 @@ pub fn theory(predictions: &[Predictions]) -> DataTable<'_> {
         own.quasistatic.floor_slip_force
     })
     .means("F at which the floor slips if other events are ignored; the closing of contact 2–3 is not")
-    .convention(|own| own.convention)
-    .law(|own| own.convention.law)
+    .convention(|own| *own.problem.convention())
+    .law(|own| own.problem.convention().law)
     .number("T", "1", |own| own.quasistatic.tangent)
     .means("T = tan(ψ/2) where the floor slips")
     .number("y", "r", |own| own.quasistatic.y)
@@ -101,17 +101,17 @@ pub fn theory(predictions: &[Predictions]) -> DataTable<'_> {
 /// Formats one table per stack for people, one line per theory.
 pub fn theories_by_stack(predictions: &[Predictions]) -> String {
     let tables = predictions.iter().map(|case| {
-        let bodies = match case.stack.bodies {
+        let (stack, convention) = (case.problem.stack(), case.problem.convention());
+        let bodies = match stack.bodies {
             PAPER_BODIES => String::new(),
             more => format!("{more} spheres below, "),
         };
         let heading = format!(
-            "{bodies}mu = {}, stiffness k_n r/(m g) = {}, kappa = {}, mu_d = {}, {}\n",
-            friction(case.stack.floor_friction),
-            case.stack.stiffness,
-            exact(case.stack.stiffness_ratio),
-            exact(case.stack.cylinder_friction),
-            case.convention
+            "{bodies}mu = {}, stiffness k_n r/(m g) = {}, kappa = {}, mu_d = {}, {convention}\n",
+            friction(stack.floor_friction),
+            stack.stiffness,
+            exact(stack.stiffness_ratio),
+            exact(stack.cylinder_friction)
         );
         heading + &one_case(case).terminal()
     });
@@ -151,7 +151,7 @@ fn one_case(case: &Predictions) -> Table {
         ("quasi-static limit", exact.yield_force, exact_remark),
     ];
     // The naive, perturbation and elastic theories assume linear springs; the rigid one has no springs.
-    let is_linear = case.convention.law.is_linear();
+    let is_linear = case.problem.convention().law.is_linear();
     for (.., remark) in lines[1..4].iter_mut().filter(|_| !is_linear) {
         if remark.is_empty() {
             *remark = "of linear springs".to_owned();

@@ -6,19 +6,18 @@
 //! contact:
 //!
 //! ```
-//! use tristack_theory::model::{ContactConvention, Stack};
+//! use tristack_theory::model::{ContactConvention, Problem, Stack};
 //! use tristack_theory::theory::quasistatic_limit;
 //!
-//! let stack = Stack::paper(0.3, 1e4);
-//! stack.validate()?;
-//! let limit = quasistatic_limit(&stack, &ContactConvention::PAPER);
+//! let problem = Problem::new(Stack::paper(0.3, 1e4), ContactConvention::PAPER)?;
+//! let limit = quasistatic_limit(&problem);
 //! assert!((limit.yield_force.unwrap() - 2118.9646).abs() < 1e-4); // in m g
 //! # Ok::<(), tristack_theory::model::InvalidValue>(())
 //! ```
 //!
-//! [`model`] holds stack, contact law and convention; [`theory`] the limit and the events on the way to it;
-//! [`experiment`] the same for real cylinders, from Young's modulus to newton. Nothing here reads a file or a command
-//! line.
+//! [`model`] holds stack, contact law and convention, and [`Problem`](model::Problem), a stack under a convention, both
+//! checked; [`theory`] the limit and the events on the way to it; [`experiment`] the same for real cylinders, from
+//! Young's modulus to newton. Nothing here reads a file or a command line.
 //!
 //! Two features, both off by default: `schema` derives JSON schemas for everything in a case file; `units` parses
 //! quantities as people write them ("1 MPa").

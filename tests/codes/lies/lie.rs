@@ -1,7 +1,7 @@
 //! Lies: what an engine may do otherwise than it says, and what that truly changes.
 
 use tristack::dem::{Contact, ContactForce, ContactModel, Counterpart, Spring, SpringDashpot};
-use tristack::model::{Case, ContactConvention, Stack};
+use tristack::model::{Case, ContactConvention, Problem, Stack};
 use tristack::series::Sample;
 use tristack::study::yield_force::Measurement;
 use tristack::theory::quasistatic_limit;
@@ -170,7 +170,12 @@ impl Lie {
             Kind::WallForceOffset => return self.size.abs(),
             _ => {}
         }
-        let altered = quasistatic_limit(&stack, &convention).yield_force;
+        let Ok(altered) = Problem::new(stack, convention) else {
+            // Theory ends where the range of an arm does. As much to the other side moves the force about as far.
+            let size = -self.size;
+            return Self { size, ..*self }.moves_yield_force_by(measurement);
+        };
+        let altered = quasistatic_limit(&altered).yield_force;
         altered.map_or(f64::INFINITY, |altered| {
             (altered * unit - force).abs() / (force + 3.0)
         })
@@ -188,7 +193,8 @@ impl Lie {
                 floor_friction: measurement.stack.floor_friction * factor,
                 ..measurement.stack
             };
-            quasistatic_limit(&stack, &measurement.convention)
+            let problem = Problem::new(stack, measurement.convention);
+            quasistatic_limit(&problem.expect("values in range"))
         };
         let (mut low, mut high) = (0.3, 1.0);
         for _ in 0..40 {

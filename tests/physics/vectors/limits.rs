@@ -9,7 +9,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use std::collections::BTreeMap;
-use tristack::model::{Arms, ContactConvention, HistoryUpdate, Stack};
+use tristack::model::{Arms, ContactConvention, HistoryUpdate, Problem, Stack};
 use tristack::theory::{Event, Limit, LoadingOutcome, quasistatic_limit};
 
 const SCHEMA: &str = "tristack/limit-vectors/2";
@@ -146,7 +146,7 @@ impl Number {
 /// What the program says of `input`.
 fn by_the_program(input: &Input) -> Vector<f64> {
     let (stack, convention) = (input.stack(), input.convention());
-    let limit = quasistatic_limit(&stack, &convention);
+    let limit = quasistatic_limit(&Problem::new(stack, convention).expect("values in range"));
     let slid_at_rest = limit.event == Event::FloorSlip && limit.slip_onset.is_none();
     Vector {
         id: input.id(),

@@ -11,7 +11,7 @@ use tristack::code::Code;
 use tristack::dem::compress_stack;
 use tristack::model::{
     Arms, Case, ContactArms, ContactConvention, CoulombOperand, HistoryUpdate, PreparationSteps,
-    Protocol, Sampling, SlidingSpring, Stack, TensileForce,
+    Problem, Protocol, Sampling, SlidingSpring, Stack, TensileForce,
 };
 use tristack::series::Series;
 use tristack::study::yield_force::protocol_at_speed;
@@ -187,7 +187,8 @@ fn chosen() -> [Chosen; 7] {
 
 impl Chosen {
     fn case(&self) -> Case {
-        let limit = quasistatic_limit(&self.stack, &self.convention);
+        let problem = Problem::new(self.stack, self.convention).expect("values in range");
+        let limit = quasistatic_limit(&problem);
         let planned = protocol_at_speed(&limit, WALL_SPEED, TIME_STEP).expect("the stack yields");
         let travel = limit.wall_travel.expect("the floor slips") + self.beyond;
         let case = Case {

@@ -1,8 +1,8 @@
 //! A case: every input of one time series.
 
 use super::{
-    ContactConvention, InvalidValue, Preparation, Protocol, Stack, WrittenStack, exact, sha256_hex,
-    shown,
+    ContactConvention, InvalidValue, Preparation, Problem, Protocol, Stack, WrittenStack, exact,
+    sha256_hex, shown,
 };
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
@@ -78,13 +78,20 @@ pub enum CaseError {
 impl Case {
     /// Checks every value; the error names the first that is out of range.
     pub fn validate(&self) -> Result<(), InvalidValue> {
-        self.stack.validate()?;
-        self.convention.validate()?;
+        self.problem()?;
         self.protocol.validate()?;
         if matches!(self.protocol.preparation, Preparation::SideWalls(_)) {
             self.stack.refuse_spheres()?;
         }
         self.validate_stability()
+    }
+
+    /// Returns its stack under its convention, both checked.
+    ///
+    /// # Errors
+    /// The first value that is out of range.
+    pub fn problem(&self) -> Result<Problem, InvalidValue> {
+        Problem::new(self.stack, self.convention)
     }
 
     fn validate_stability(&self) -> Result<(), InvalidValue> {

@@ -2,7 +2,7 @@
 //!
 //! Lengths, stiffnesses and weights keep their dimensions here, so that a missing factor r shows.
 
-use crate::model::{CRITICAL_FRICTION, ContactConvention, Stack};
+use crate::model::{CRITICAL_FRICTION, ContactConvention, Problem, Stack};
 use crate::study::yield_force::PAPER_STIFFNESSES;
 use crate::theory::{Limit, elastic_root, quasistatic_limit};
 use nalgebra::{Matrix4, SMatrix, SVector, Vector2, Vector4};
@@ -297,14 +297,18 @@ pub(crate) fn elastic_displacement(stack: &Stack) -> f64 {
     elastic_root(stack).map_or(f64::NAN, |root| root.z)
 }
 
-/// Returns the exact quasi-static limit of the paper's DEM.
-fn paper_limit(stack: &Stack) -> Limit {
-    quasistatic_limit(stack, &ContactConvention::PAPER)
+/// Returns the exact quasi-static limit of the paper's DEM; `None` if a value of the stack is out of range.
+pub(crate) fn paper_limit(stack: &Stack) -> Option<Limit> {
+    let problem = Problem::new(*stack, ContactConvention::PAPER).ok()?;
+    Some(quasistatic_limit(&problem))
 }
 
 /// Returns F of the DEM's exact quasi-static limit, or NaN if the stack does not yield.
 pub(crate) fn yield_force(stack: &Stack) -> f64 {
-    paper_limit(stack).yield_force.unwrap_or(f64::NAN)
+    let limit = paper_limit(stack);
+    limit
+        .and_then(|limit| limit.yield_force)
+        .unwrap_or(f64::NAN)
 }
 
 /// Returns the stacks of Fig. 2(a) between μ = 0.1 and 0.5, each with F + 3 of the DEM's exact quasi-static limit.
@@ -313,7 +317,7 @@ pub(crate) fn figure_loads() -> &'static [(Stack, f64)] {
         let stacks = PAPER_STIFFNESSES.into_iter().flat_map(|stiffness| {
             (0..=20).map(move |step| Stack::paper(0.1 + 0.02 * f64::from(step), stiffness))
         });
-        let with_load = |stack: Stack| Some((stack, paper_limit(&stack).yield_force? + 3.0));
+        let with_load = |stack: Stack| Some((stack, paper_limit(&stack)?.yield_force? + 3.0));
         stacks.filter_map(with_load).collect()
     });
     &LOADS

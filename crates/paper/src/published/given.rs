@@ -1,11 +1,10 @@
 //! Case files with a given start, which are run as the authors' program runs, for stacks that they have not
 //! published.
 
-use super::points::{RESTITUTION, WALL_STARTS, run, wall_height};
+use super::points::{RESTITUTION, WALL_STARTS, limit, run, wall_height};
 use crate::dem::{ForceSampling, GivenStart, LaneWidth, PublishedForces, PublishedRun};
 use crate::files::case_content;
 use crate::model::{CaseError, ContactConvention, InvalidValue, Power, Stack, WrittenStack};
-use crate::theory::quasistatic_limit;
 use schemars::JsonSchema;
 use serde::Deserialize;
 use std::path::Path;
@@ -202,7 +201,7 @@ impl GivenCase {
             case: *self,
             stack: run.stack,
             yield_force: forces.yield_force,
-            limit: quasistatic_limit(&run.stack, &ContactConvention::PAPER).yield_force,
+            limit: limit(&run.stack),
             rows: rows.collect(),
         })
     }

@@ -2,7 +2,7 @@
 
 use super::checkout::{Checkout, DataFile, Printed, Subject};
 use crate::dem::{ForceSampling, GivenStart, PublishedRun};
-use crate::model::{ContactConvention, Stack};
+use crate::model::{ContactConvention, Problem, Stack};
 use crate::theory::quasistatic_limit;
 use serde::Deserialize;
 
@@ -187,9 +187,9 @@ fn force(
     })
 }
 
-fn limit(stack: &Stack) -> Option<f64> {
-    stack.validate().ok()?;
-    quasistatic_limit(stack, &ContactConvention::PAPER).yield_force
+pub(super) fn limit(stack: &Stack) -> Option<f64> {
+    let problem = Problem::new(*stack, ContactConvention::PAPER).ok()?;
+    quasistatic_limit(&problem).yield_force
 }
 
 /// Returns the height of the wall at first, in r: that of three cylinders that just touch.

@@ -120,7 +120,7 @@ pub fn converge(campaign: &Campaign) -> (Convergence, Vec<RunSummary>) {
 }
 
 fn point(code: &Code, case: &Case, result: &Result<RunSummary, RunError>) -> ConvergencePoint {
-    let limit = quasistatic_limit(&case.stack, &case.convention);
+    let problem = case.problem().ok();
     let estimates = result.as_ref().ok().map(|summary| summary.estimates);
     ConvergencePoint {
         code: code.clone(),
@@ -128,7 +128,7 @@ fn point(code: &Code, case: &Case, result: &Result<RunSummary, RunError>) -> Con
         time_step: case.protocol.time_step,
         slip_force: estimates.and_then(|read| Some(read.slip?.force)),
         peak_force: estimates.and_then(|read| Some(read.peak?.force)),
-        limit: limit.yield_force,
+        limit: problem.and_then(|own| quasistatic_limit(&own).yield_force),
         remark: result.as_ref().err().map(ToString::to_string),
     }
 }

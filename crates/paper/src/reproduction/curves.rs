@@ -1,7 +1,7 @@
 //! Curves of theory over the whole range of the figures.
 
 use crate::code::{Code, SettledCode};
-use crate::model::{CRITICAL_FRICTION, ContactConvention, PAPER_BODIES, Power, Stack};
+use crate::model::{CRITICAL_FRICTION, ContactConvention, PAPER_BODIES, Power, Problem, Stack};
 use crate::study::yield_force::PAPER_STIFFNESSES;
 use crate::theory::{Predictions, quasistatic_limit};
 
@@ -33,7 +33,8 @@ pub struct TheoryPoint {
 
 impl TheoryPoint {
     fn new(mu: f64, stiffness: f64) -> Self {
-        let predicted = Predictions::new(&Stack::paper(mu, stiffness), &ContactConvention::PAPER);
+        let problem = Problem::new(Stack::paper(mu, stiffness), ContactConvention::PAPER);
+        let predicted = Predictions::new(&problem.expect("the stacks of a figure are in range"));
         Self {
             mu,
             stiffness,
@@ -138,9 +139,11 @@ fn model_form(groups: &[Vec<SettledCode>]) -> Vec<ModelFormPoint> {
         for stiffness in PAPER_STIFFNESSES {
             for mu in frictions().into_iter().step_by(2) {
                 let stack = Stack::paper(mu, stiffness);
-                let own = quasistatic_limit(&stack, &convention);
-                let paper = quasistatic_limit(&stack, &ContactConvention::PAPER);
-                let both = own.yield_force.zip(paper.yield_force);
+                let force = |convention| {
+                    let problem = Problem::new(stack, convention).ok()?;
+                    quasistatic_limit(&problem).yield_force
+                };
+                let both = force(convention).zip(force(ContactConvention::PAPER));
                 points.extend(both.map(|(own, paper)| ModelFormPoint {
                     code: code.name().clone(),
                     mu,

@@ -2,7 +2,7 @@
 
 use super::case_at_speed;
 use crate::code::{Code, Identity, Run, SettledCode};
-use crate::model::{Case, ContactConvention, Stack};
+use crate::model::{Case, ContactConvention, Problem, Stack};
 use crate::runs::{Reading, RunError, RunSummary, Workload};
 use crate::study::Campaign;
 use crate::study::yield_force::{PAPER_TIME_STEP, PAPER_WALL_SPEED};
@@ -74,11 +74,12 @@ pub fn force_series(campaign: &Campaign) -> Result<(ForceSeries, RunSummary), Ru
     let results = campaign.read(&[workload]);
     let first = results.into_iter().flatten().next();
     let ForceRows { rows, summary } = first.expect("a stack that yields is planned")?;
+    let problem = Problem::new(stack, ContactConvention::PAPER).ok();
     let series = ForceSeries {
         rows,
         slip_force: summary.estimates.slip.map(|slip| slip.force),
         peak_force: summary.estimates.peak.map(|peak| peak.force),
-        limit: quasistatic_limit(&stack, &ContactConvention::PAPER).yield_force,
+        limit: problem.and_then(|own| quasistatic_limit(&own).yield_force),
         wall_speed: PAPER_WALL_SPEED,
         time_step: PAPER_TIME_STEP,
     };

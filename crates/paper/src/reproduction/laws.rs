@@ -3,7 +3,7 @@
 use super::scaling::{Exponent, SCALING_STIFFNESSES, fitted_exponents};
 use super::{is_same, judged};
 use crate::code::SettledCode;
-use crate::model::{CRITICAL_FRICTION, PAPER_BODIES, Power, Stack};
+use crate::model::{CRITICAL_FRICTION, PAPER_BODIES, Power, Problem, Stack};
 use crate::study::Campaign;
 use crate::study::yield_force::{Judgement, Measurement, Profile, plan};
 use crate::theory::quasistatic_limit;
@@ -82,8 +82,9 @@ fn critical() -> Vec<(f64, Option<f64>)> {
     let points = (0..=intervals).map(|index| {
         let part = f64::from(index) / f64::from(intervals);
         let stiffness = first * libm::exp10(part * decades);
-        let limit = quasistatic_limit(&critical_stack(stiffness), &convention);
-        (stiffness, limit.yield_force)
+        let problem = Problem::new(critical_stack(stiffness), convention).ok();
+        let force = problem.and_then(|own| quasistatic_limit(&own).yield_force);
+        (stiffness, force)
     });
     points.collect()
 }

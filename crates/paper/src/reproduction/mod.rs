@@ -22,7 +22,9 @@ pub use snapshots::{Snapshots, snapshots};
 pub use spheres::{BodiesCurve, SPHERES_STIFFNESSES, Spheres};
 
 use crate::code::{Code, Provenance, SettledCode};
-use crate::model::{Case, HistoryUpdate, PAPER_BODIES, PAPER_STIFFNESS_RATIO, Power, Stack};
+use crate::model::{
+    Case, HistoryUpdate, PAPER_BODIES, PAPER_STIFFNESS_RATIO, Power, Problem, Stack,
+};
 use crate::published::{Checkout, Published};
 use crate::runs::{Progress, RunError, RunSummary, SelectedCode, Settings, Workload};
 use crate::series::SeriesError;
@@ -269,7 +271,7 @@ fn case_at_speed(
     time_step: f64,
 ) -> Option<Case> {
     let convention = code.stack_convention(Power::Linear, stack.bodies);
-    let limit = quasistatic_limit(&stack, &convention);
+    let limit = quasistatic_limit(&Problem::new(stack, convention).ok()?);
     Some(Case {
         stack,
         convention,

@@ -3,7 +3,7 @@
 use super::SCALING_FRICTIONS;
 use crate::code::Interrupt;
 use crate::dem::compress_stack_into_frames;
-use crate::model::{Case, ContactConvention, Stack};
+use crate::model::{Case, ContactConvention, Problem, Stack};
 use crate::series::{Frames, SeriesError};
 use crate::study::yield_force::planned_protocol;
 use crate::theory::quasistatic_limit;
@@ -29,7 +29,8 @@ pub struct Snapshots {
 pub fn snapshots(interrupt: &Interrupt) -> Result<Option<Snapshots>, SeriesError> {
     let stack = Stack::paper(SCALING_FRICTIONS[2], 1e2);
     let convention = ContactConvention::PAPER;
-    let limit = quasistatic_limit(&stack, &convention);
+    let problem = Problem::new(stack, convention);
+    let limit = quasistatic_limit(&problem.expect("a stack of the paper is in range"));
     let protocol = planned_protocol(&limit, &stack, &convention, SPEED, TIME_STEP);
     let protocol = protocol.expect("a stack that yields is planned");
     let case = Case {

@@ -1,6 +1,6 @@
 //! Yield curves of spheres beside those of cylinders.
 
-use crate::model::{ContactConvention, PAPER_BODIES, Ring, Stack};
+use crate::model::{ContactConvention, PAPER_BODIES, Problem, Ring, Stack};
 use crate::theory::{Event, Limit, quasistatic_limit, rigid_yield};
 use rayon::iter::{IntoParallelIterator, ParallelIterator};
 
@@ -113,7 +113,8 @@ fn limit(stack: &Stack, mu: f64) -> Limit {
         floor_friction: mu,
         ..*stack
     };
-    quasistatic_limit(&stack, &ContactConvention::TURNING)
+    let problem = Problem::new(stack, ContactConvention::TURNING);
+    quasistatic_limit(&problem.expect("the frictions of a curve are above 0 and below 2"))
 }
 
 /// Bisects to two neighbouring doubles between `inside` and `outside`: the first `holds`, the second does not.
@@ -227,7 +228,7 @@ mod tests {
             assert!(below(&stiff) > 0.0 && 50.0 * below(&stiff) < below(&soft));
         }
         let cylinders = Stack::paper(CRITICAL_FRICTION, 1e4);
-        let limit = quasistatic_limit(&cylinders, &ContactConvention::TURNING);
-        assert_eq!(curve(2, 1e4).forces[1], limit.yield_force);
+        let force = limit(&cylinders, CRITICAL_FRICTION).yield_force;
+        assert_eq!(curve(2, 1e4).forces[1], force);
     }
 }

@@ -1,7 +1,9 @@
 //! Forecasts of an experiment, one for each estimate of the contact stiffness.
 
 use super::{ContactEstimate, Experiment, GRAVITY};
-use crate::model::{CRITICAL_FRICTION, ContactConvention, HistoryUpdate, InvalidValue, Stack};
+use crate::model::{
+    CRITICAL_FRICTION, ContactConvention, HistoryUpdate, InvalidValue, Problem, Stack,
+};
 use crate::theory::{
     Event, FailureMode, Limit, LoadingOutcome, pair_overlap, perturbation_load, quasistatic_limit,
 };
@@ -61,6 +63,8 @@ pub struct Force {
 pub struct Forecasted {
     /// The estimate.
     pub contact: ContactEstimate,
+    /// The dimensionless problem, with springs that turn and the stiffness of the estimate, up to 10¹².
+    pub problem: Problem,
     /// k_n in N/m.
     pub normal_stiffness: f64,
     /// ε = m g/(k_n r).
@@ -182,16 +186,18 @@ fn forecasted(
         let normal_stiffness = contact.normal_stiffness(&experiment.cylinder, overlap);
         let stack = experiment.stack(mu, normal_stiffness);
         check_stiffness(contact, stack.stiffness)?;
-        let limit = quasistatic_limit(&stack, &ContactConvention::TURNING);
+        let problem = Problem::checked(stack, ContactConvention::TURNING);
+        let limit = quasistatic_limit(&problem);
         let next = overlap_at_the_event(&limit, &stack);
         let settled = (next - overlap).abs() <= 1e-14 * overlap;
         overlap = next;
-        known = Some((normal_stiffness, stack, limit));
+        known = Some((normal_stiffness, problem, limit));
         if settled {
             break;
         }
     }
-    let (normal_stiffness, stack, limit) = known.expect("there is at least one round");
+    let (normal_stiffness, problem, limit) = known.expect("there is at least one round");
+    let stack = problem.stack();
     let weight = experiment.cylinder.mass() * GRAVITY;
     let force = |weights: f64| Force {
         weights,
@@ -199,6 +205,7 @@ fn forecasted(
     };
     Ok(Forecasted {
         contact,
+        problem,
         normal_stiffness,
         epsilon: stack.epsilon(),
         stiffness: stack.stiffness,
@@ -206,9 +213,9 @@ fn forecasted(
         overlap,
         yield_force: limit.yield_force.map(force),
         slip_onset: limit.slip_onset.map(force),
-        perturbation: perturbation_load(&stack).map(|load| force(load - stack.own_weight())),
+        perturbation: perturbation_load(stack).map(|load| force(load - stack.own_weight())),
         paper_formula: force(stack.stiffness),
-        largest_force: largest_force(&limit, &stack).map(force),
+        largest_force: largest_force(&limit, stack).map(force),
         reason: limit.reason,
     })
 }
@@ -321,7 +328,7 @@ mod tests {
         for stiffness in [1e8, 1e10, 1e12] {
             let force = |mu| {
                 let stack = Stack::paper(mu, stiffness);
-                let limit = quasistatic_limit(&stack, &ContactConvention::TURNING);
+                let limit = quasistatic_limit(&Problem::checked(stack, ContactConvention::TURNING));
                 assert_eq!(limit.event, Event::FloorSlip, "{stiffness} {mu}");
                 limit.yield_force.expect("the floor slips")
             };

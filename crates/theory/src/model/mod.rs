@@ -11,6 +11,7 @@ mod convention;
 mod impact;
 mod law;
 mod material;
+mod problem;
 mod ring;
 mod stack;
 mod validity;
@@ -28,6 +29,7 @@ pub use law::{
     TangentialStiffening,
 };
 pub use material::Material;
+pub use problem::Problem;
 pub use ring::Ring;
 pub use stack::{
     BODIES_RANGE, CRITICAL_FRICTION, PAPER_BODIES, PAPER_CYLINDER_FRICTION, PAPER_STIFFNESS_RATIO,

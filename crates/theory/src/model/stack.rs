@@ -135,11 +135,7 @@ impl Stack {
         self.validate_bodies()?;
         self.validate_arrangement()?;
         let (lowest, highest) = STIFFNESS_RANGE;
-        positive(
-            "stack.floor_friction",
-            self.floor_friction,
-            HIGHEST_FRICTION,
-        )?;
+        self.validate_floor_friction()?;
         positive(
             "stack.cylinder_friction",
             self.cylinder_friction,
@@ -151,6 +147,12 @@ impl Stack {
             self.stiffness_ratio,
             HIGHEST_STIFFNESS_RATIO,
         )
+    }
+
+    /// Checks the floor friction alone.
+    pub(super) fn validate_floor_friction(&self) -> Result<(), InvalidValue> {
+        let key = "stack.floor_friction";
+        positive(key, self.floor_friction, HIGHEST_FRICTION)
     }
 
     /// Checks that the number of bodies makes a ring which carries a body on top.

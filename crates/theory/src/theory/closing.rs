@@ -111,7 +111,7 @@ fn explanation(event: Event) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::model::{Law, TangentialHistory};
+    use crate::model::{Law, Problem, TangentialHistory};
     use crate::theory::quasistatic_limit;
 
     fn stack(mu: f64, cylinder_friction: f64, stiffness_ratio: f64) -> Stack {
@@ -123,7 +123,8 @@ mod tests {
     }
 
     fn limit(stack: &Stack) -> Limit {
-        let limit = quasistatic_limit(stack, &ContactConvention::TURNING);
+        let problem = Problem::new(*stack, ContactConvention::TURNING).unwrap();
+        let limit = quasistatic_limit(&problem);
         assert_eq!(limit.event, Event::ContactCloses);
         limit
     }
@@ -207,7 +208,7 @@ mod tests {
             stiffness_ratio: 0.9,
             ..Stack::paper(0.2, 1e4)
         };
-        let limit = quasistatic_limit(&stack, &convention);
+        let limit = quasistatic_limit(&Problem::new(stack, convention).unwrap());
         assert_eq!(limit.event, Event::ContactCloses);
         assert_eq!(limit.time_scale, stack.time_scale(&convention));
         assert!(limit.time_scale > 2.0 && limit.needs_slow_ramp);

@@ -5,7 +5,7 @@ use crate::model::{Ring, Stack};
 use serde::{Deserialize, Serialize};
 
 /// The first event of a stack under increasing load.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Event {
     /// The bottom cylinders slide on the floor, e = μ d: the paper's yield.
@@ -17,6 +17,7 @@ pub enum Event {
     /// The top wall reaches the top of cylinder 2.
     WallContact,
     /// The path ends before any event.
+    #[default]
     None,
 }
 

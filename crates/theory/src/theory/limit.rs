@@ -3,11 +3,11 @@
 use super::events::{Event, Path, PathPoint, locate_until};
 use crate::model::Stack;
 
-/// The quasi-static limit of a stack.
+/// The quasi-static limit of a stack. The default has no force, no event and no reason.
 ///
 /// If contact 2–3 is closed when the floor starts to slide, the sliding relieves that contact, and the force rises
 /// until it opens: onset and peak are then two forces. Where c = 0 at the onset they are the same.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct Limit {
     /// The yield force F = f/(m g), which is the peak; absent when another event comes first.
     pub yield_force: Option<f64>,
@@ -164,7 +164,7 @@ mod tests {
     use super::super::root::bracketed_root;
     use super::super::{closed_form_limit, followed_limit, pair_overlap};
     use super::*;
-    use crate::model::{Arms, CRITICAL_FRICTION, ContactConvention};
+    use crate::model::{Arms, CRITICAL_FRICTION, ContactConvention, Problem};
 
     #[test]
     fn a_limit_without_a_yield_force_says_why() {
@@ -202,7 +202,7 @@ mod tests {
             ..Stack::paper(0.315, 230.0)
         };
         let convention = ContactConvention::with_arms(Arms::reciprocal(0.496, 0.824));
-        let limit = followed_limit(&stack, &convention);
+        let limit = followed_limit(&Problem::new(stack, convention).unwrap());
         assert_eq!(limit.event, Event::None);
         assert_eq!([limit.yield_force, limit.floor_slip_force], [None; 2]);
         assert!(

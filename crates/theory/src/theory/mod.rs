@@ -40,32 +40,29 @@ pub use small_displacement::elastic_root;
 pub use small_displacement::{ElasticRoot, RigidYield, rigid_yield};
 pub(crate) use small_displacement::{naive_load, perturbation_load};
 
-use crate::model::{ContactConvention, Stack};
+use crate::model::Problem;
 
-/// Returns the exact quasi-static limit of `stack` under `convention`. See [`LimitCurve`] for many stacks.
-pub fn quasistatic_limit(stack: &Stack, convention: &ContactConvention) -> Limit {
-    LimitCurve::new(stack, convention).limit(stack)
+/// Returns the exact quasi-static limit of `problem`. See [`LimitCurve`] for many stacks.
+pub fn quasistatic_limit(problem: &Problem) -> Limit {
+    LimitCurve::new(problem).limit(problem)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::model::Arms;
+    use crate::model::{Arms, ContactConvention, Stack};
 
     #[test]
     fn the_closed_form_is_taken_where_both_arms_are_0_and_only_there() {
         let stack = Stack::paper(0.3, 1e2);
         let closed = closed_form_limit(&stack);
-        assert_eq!(
-            quasistatic_limit(&stack, &ContactConvention::TURNING),
-            closed
-        );
+        let turning = Problem::new(stack, ContactConvention::TURNING).unwrap();
+        assert_eq!(quasistatic_limit(&turning), closed);
         // The two agree to nine digits, but not to the last bit.
-        assert_ne!(followed_limit(&stack, &ContactConvention::TURNING), closed);
+        assert_ne!(followed_limit(&turning), closed);
         for arms in [Arms::reciprocal(-0.5, 0.0), Arms::reciprocal(0.0, -0.5)] {
-            let convention = ContactConvention::with_arms(arms);
-            let followed = followed_limit(&stack, &convention);
-            assert_eq!(quasistatic_limit(&stack, &convention), followed);
+            let problem = Problem::new(stack, ContactConvention::with_arms(arms)).unwrap();
+            assert_eq!(quasistatic_limit(&problem), followed_limit(&problem));
         }
     }
 }

@@ -11,7 +11,7 @@ mod speed;
 use super::events::{Event, Path, PathPoint, locate};
 use super::limit::Limit;
 use super::root::bracketed_root;
-use crate::model::{ContactConvention, Ring, Stack};
+use crate::model::{ContactConvention, Problem, Ring, Stack};
 pub(super) use balance::BottomContact;
 use balance::{Beginning, Contacts, FIXED, Leg, State, TURNING};
 use differential_equations::prelude::{ExplicitRungeKutta, IVP, ODE};
@@ -259,8 +259,9 @@ impl Path for FollowedPath {
     }
 }
 
-/// The quasi-static limit of `stack` under any convention.
-pub fn followed_limit(stack: &Stack, convention: &ContactConvention) -> Limit {
+/// The quasi-static limit of `problem`, along its path even where there is a closed form.
+pub fn followed_limit(problem: &Problem) -> Limit {
+    let (stack, convention) = (problem.stack(), problem.convention());
     let path = followed_path(stack, convention, BottomContact::Ignored);
     limit_on(&path, stack, convention)
 }

@@ -4,7 +4,7 @@ use super::{
     ElasticRoot, Limit, LimitCurve, RigidYield, SpeedExcess, elastic_root, naive_load,
     perturbation_load, rigid_yield,
 };
-use crate::model::{ContactConvention, Stack};
+use crate::model::{Problem, Stack};
 
 /// The yield force according to one theory, or why that theory gives none.
 #[derive(Debug, Clone, PartialEq)]
@@ -27,10 +27,8 @@ impl Prediction {
 /// The yield force of one stack according to every theory.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Predictions {
-    /// The stack.
-    pub stack: Stack,
-    /// The contact convention, which affects the quasi-static limit alone.
-    pub convention: ContactConvention,
+    /// The stack, and the contact convention, which affects the quasi-static limit alone.
+    pub problem: Problem,
     /// Rigid cylinders.
     pub rigid: RigidYield,
     /// Naive expansion.
@@ -57,30 +55,29 @@ pub struct MovingWall {
 }
 
 impl Predictions {
-    /// Evaluates every theory for `stack` under `convention`.
-    pub fn new(stack: &Stack, convention: &ContactConvention) -> Self {
-        Self::on(&LimitCurve::new(stack, convention), stack, convention)
+    /// Evaluates every theory for `problem`.
+    pub fn new(problem: &Problem) -> Self {
+        Self::on(&LimitCurve::new(problem), problem)
     }
 
-    /// Evaluates every theory for each of `stacks`. Consecutive stacks that differ in their frictions alone share one
+    /// Evaluates every theory for each of `problems`. Consecutive ones that differ in their frictions alone share one
     /// path of equilibria.
     pub fn of_each<'a>(
-        stacks: impl IntoIterator<Item = &'a Stack>,
-        convention: &ContactConvention,
+        problems: impl IntoIterator<Item = &'a Problem>,
     ) -> impl Iterator<Item = Self> {
         let mut curve: Option<LimitCurve> = None;
-        stacks.into_iter().map(move |stack| {
-            let kept = curve.take().filter(|own| own.holds(stack, convention));
-            let kept = kept.unwrap_or_else(|| LimitCurve::new(stack, convention));
-            Self::on(curve.insert(kept), stack, convention)
+        problems.into_iter().map(move |problem| {
+            let kept = curve.take().filter(|own| own.holds(problem));
+            let kept = kept.unwrap_or_else(|| LimitCurve::new(problem));
+            Self::on(curve.insert(kept), problem)
         })
     }
 
-    fn on(curve: &LimitCurve, stack: &Stack, convention: &ContactConvention) -> Self {
+    fn on(curve: &LimitCurve, problem: &Problem) -> Self {
+        let stack = problem.stack();
         let elastic_root = elastic_root(stack);
         Self {
-            stack: *stack,
-            convention: *convention,
+            problem: *problem,
             rigid: rigid_yield(stack),
             naive: Prediction::from_load(stack, naive_load(stack), "the expansion gives F < 0"),
             perturbation: Prediction::from_load(
@@ -94,7 +91,7 @@ impl Predictions {
                 "the equation has no root with F >= 0",
             ),
             elastic_root,
-            quasistatic: curve.limit(stack),
+            quasistatic: curve.limit(problem),
             moving: None,
         }
     }
@@ -102,8 +99,8 @@ impl Predictions {
     /// Adds the effect of a wall that moves at this `speed`, in r √(k_n/m), to first order.
     #[must_use]
     pub fn at_speed(self, speed: f64) -> Self {
-        let curve = LimitCurve::new(&self.stack, &self.convention);
-        let excess = curve.speed_excess(&self.stack, &self.quasistatic);
+        let curve = LimitCurve::new(&self.problem);
+        let excess = curve.speed_excess(&self.problem, &self.quasistatic);
         Self {
             moving: Some(MovingWall { speed, excess }),
             ..self
@@ -120,10 +117,12 @@ impl Predictions {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::model::ContactConvention;
 
     #[test]
     fn a_moving_wall_adds_its_speed_times_the_excess() {
-        let still = Predictions::new(&Stack::paper(0.2, 1e4), &ContactConvention::TURNING);
+        let problem = Problem::new(Stack::paper(0.2, 1e4), ContactConvention::TURNING);
+        let still = Predictions::new(&problem.unwrap());
         assert_eq!(still.moving_peak(), None);
         // Limit and coefficient by runs at two speeds.
         let expected = 4.880_027_89 + 41_762.7 * 1e-6;
@@ -133,14 +132,15 @@ mod tests {
 
     #[test]
     fn each_of_several_stacks_has_its_own_predictions() {
-        let stacks = [(0.2, 1e2), (0.3, 1e2), (0.3, 1e3)];
-        let stacks = stacks.map(|(friction, stiffness)| Stack::paper(friction, stiffness));
-        let convention = ContactConvention::PAPER;
-        let each: Vec<Predictions> = Predictions::of_each(&stacks, &convention).collect();
-        assert_eq!(each.len(), stacks.len());
-        for (own, stack) in each.iter().zip(&stacks) {
-            let alone = Predictions::new(stack, &convention);
-            assert_eq!(own.stack, *stack);
+        let problems = [(0.2, 1e2), (0.3, 1e2), (0.3, 1e3)].map(|(friction, stiffness)| {
+            let stack = Stack::paper(friction, stiffness);
+            Problem::new(stack, ContactConvention::PAPER).unwrap()
+        });
+        let each: Vec<Predictions> = Predictions::of_each(&problems).collect();
+        assert_eq!(each.len(), problems.len());
+        for (own, problem) in each.iter().zip(&problems) {
+            let alone = Predictions::new(problem);
+            assert_eq!(own.problem, *problem);
             assert_eq!(own.perturbation, alone.perturbation);
             let [own, alone] = [own, &alone].map(|one| one.quasistatic.yield_force.unwrap());
             assert!((own / alone - 1.0).abs() < 1e-12, "{own} {alone}");

@@ -75,6 +75,7 @@ pub fn pushed_slip_force(stack: &Stack, push: f64, history_update: HistoryUpdate
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::model::Problem;
     use crate::theory::{CLOSING_STIFFNESS_RATIO, closed_form_limit, quasistatic_limit};
 
     #[test]
@@ -85,7 +86,8 @@ mod tests {
                 let exact = closed_form_limit(&stack).yield_force.unwrap();
                 let force = pushed_slip_force(&stack, 0.0, HistoryUpdate::Rotated).unwrap();
                 assert!((force / exact - 1.0).abs() < 1e-11, "{force} {exact}");
-                let fixed = quasistatic_limit(&stack, &ContactConvention::PAPER).floor_slip_force;
+                let problem = Problem::new(stack, ContactConvention::PAPER).unwrap();
+                let fixed = quasistatic_limit(&problem).floor_slip_force;
                 let force = pushed_slip_force(&stack, 0.0, HistoryUpdate::Fixed);
                 assert_eq!(force, fixed, "the same path");
             }

@@ -245,7 +245,7 @@ impl SlidingBranch {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::model::ContactArms;
+    use crate::model::{ContactArms, Problem};
     use crate::theory::quasistatic_limit;
 
     fn branch(mu: f64, stiffness: f64, arms: Arms) -> SlidingBranch {
@@ -330,7 +330,7 @@ mod tests {
         let convention = ContactConvention::with_arms(arms);
         let branch = SlidingBranch::new(&stack, &convention);
         assert_eq!(branch.end(0.224), SlidingEnd::Other(Event::None));
-        let limit = quasistatic_limit(&stack, &convention);
+        let limit = quasistatic_limit(&Problem::new(stack, convention).unwrap());
         assert_eq!([limit.yield_force, limit.peak_force], [None; 2]);
         assert!(limit.reason.unwrap().contains("the sliding branch ends"));
     }

@@ -2,7 +2,7 @@
 //! relations that must hold between them.
 
 use proptest::prelude::*;
-use tristack_theory::model::{Arms, ContactArms, ContactConvention, Stack};
+use tristack_theory::model::{Arms, ContactArms, ContactConvention, Problem, Stack};
 use tristack_theory::theory::{Predictions, closed_form_limit, followed_limit};
 
 /// Values spread evenly over the logarithm.
@@ -54,7 +54,8 @@ proptest! {
         stack in any_stack(),
         arms in any_arms(),
     ) {
-        let predictions = Predictions::new(&stack, &ContactConvention::with_arms(arms));
+        let problem = Problem::new(stack, ContactConvention::with_arms(arms)).unwrap();
+        let predictions = Predictions::new(&problem);
         let forces = [
             (predictions.naive.yield_force, predictions.naive.reason.is_some()),
             (predictions.perturbation.yield_force, predictions.perturbation.reason.is_some()),
@@ -70,7 +71,8 @@ proptest! {
     #[test]
     fn follower_and_closed_form_are_the_same_for_arms_0(stack in usual_stack()) {
         let closed = closed_form_limit(&stack);
-        let followed = followed_limit(&stack, &ContactConvention::TURNING);
+        let problem = Problem::new(stack, ContactConvention::TURNING).unwrap();
+        let followed = followed_limit(&problem);
         prop_assert_eq!(closed.event, followed.event);
         match (closed.floor_slip_force, followed.floor_slip_force) {
             (Some(closed), Some(followed)) => {

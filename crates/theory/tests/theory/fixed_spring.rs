@@ -90,13 +90,17 @@ impl Problem {
     }
 
     fn limit(&self) -> Limit {
-        quasistatic_limit(&self.stack(), &self.convention())
+        quasistatic_limit(&checked(self.stack(), self.convention()))
     }
 
     /// Distance of two forces, in F + n + 1.
     fn apart(&self, one: f64, other: f64) -> f64 {
         (one - other).abs() / (other + self.count() + 1.0)
     }
+}
+
+fn checked(stack: Stack, convention: ContactConvention) -> tristack_theory::model::Problem {
+    tristack_theory::model::Problem::new(stack, convention).expect("values in range")
 }
 
 const ARMS: [f64; 4] = [-0.5, -0.2, -0.8, 0.3];
@@ -320,7 +324,8 @@ fn every_rule_but_the_fixed_spring_has_one_limit() {
             history_update,
             ..ContactConvention::PAPER
         };
-        quasistatic_limit(&stack, &convention).yield_force.unwrap()
+        let limit = quasistatic_limit(&checked(stack, convention));
+        limit.yield_force.unwrap()
     };
     use HistoryUpdate::{Fixed, Linearised, Projected, Rotated};
     assert_eq!([Projected, Linearised].map(force), [force(Rotated); 2]);

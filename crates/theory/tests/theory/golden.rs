@@ -5,8 +5,8 @@ use serde::Deserialize;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use tristack_theory::model::{
-    Arms, ContactArms, ContactConvention, DampingGrowth, Law, Power, Stack, TangentialHistory,
-    TangentialStiffening,
+    Arms, ContactArms, ContactConvention, DampingGrowth, Law, Power, Problem, Stack,
+    TangentialHistory, TangentialStiffening,
 };
 use tristack_theory::theory::{
     Event, LimitCurve, Predictions, closed_form_limit, followed_limit, rigid_yield,
@@ -90,13 +90,17 @@ fn stack(mu: f64, stiffness: f64, kappa: f64) -> Stack {
     }
 }
 
+fn problem(stack: Stack, convention: ContactConvention) -> Problem {
+    Problem::new(stack, convention).expect("values in range")
+}
+
 #[test]
 fn small_displacement_theories_match_to_1e_10() {
     let mut worst: [Worst; 8] = Default::default();
     for golden in rows::<SmallDisplacementRow>("small_displacement.csv") {
         let name = format!("{golden:?}");
         let stack = stack(golden.mu, golden.stiffness, golden.kappa);
-        let predictions = Predictions::new(&stack, &ContactConvention::TURNING);
+        let predictions = Predictions::new(&problem(stack, ContactConvention::TURNING));
         let root = predictions.elastic_root;
         let pairs = [
             (predictions.rigid.yield_force, golden.rigid),
@@ -173,10 +177,8 @@ fn follower_equals_the_closed_form_to_1e_9_for_arms_0() {
     let mut worst = Worst::default();
     for golden in rows::<QuasistaticRow>("quasistatic.csv") {
         let name = format!("{golden:?}");
-        let limit = followed_limit(
-            &stack(golden.mu, golden.stiffness, golden.kappa),
-            &ContactConvention::TURNING,
-        );
+        let stack = stack(golden.mu, golden.stiffness, golden.kappa);
+        let limit = followed_limit(&problem(stack, ContactConvention::TURNING));
         worst.compare(limit.floor_slip_force, golden.floor_slip_force, &name);
     }
     worst.must_stay_below(1e-9, "follower, arms 0");
@@ -199,7 +201,7 @@ fn follower_is_converged_to_1e_7_for_every_pair_of_arms() {
         let name = format!("{golden:?}");
         let stack = stack(golden.mu, golden.stiffness, golden.kappa);
         let arms = Arms::reciprocal(golden.pair_arm, golden.floor_arm);
-        let limit = followed_limit(&stack, &ContactConvention::with_arms(arms));
+        let limit = followed_limit(&problem(stack, ContactConvention::with_arms(arms)));
         worst.compare(limit.floor_slip_force, golden.floor_slip_force, &name);
     }
     worst.must_stay_below(1e-7, "follower, all arms");
@@ -233,7 +235,7 @@ fn follower_equals_the_path_without_rotation_to_1e_9_where_torque_and_kinematic_
             },
         };
         let stack = stack(golden.mu, golden.stiffness, golden.kappa);
-        let limit = followed_limit(&stack, &ContactConvention::with_arms(arms));
+        let limit = followed_limit(&problem(stack, ContactConvention::with_arms(arms)));
         let name = format!("{golden:?}");
         worst.compare(limit.floor_slip_force, golden.floor_slip_force, &name);
     }
@@ -352,9 +354,10 @@ fn a_wall_speed_adds_what_the_balances_of_the_bodies_say() {
                 _ => ContactConvention::TURNING,
             }
         };
-        let curve = LimitCurve::new(&stack, &convention);
-        let limit = curve.limit(&stack);
-        let added = curve.speed_excess(&stack, &limit).expect("an excess");
+        let problem = problem(stack, convention);
+        let curve = LimitCurve::new(&problem);
+        let limit = curve.limit(&problem);
+        let added = curve.speed_excess(&problem, &limit).expect("an excess");
         let name = format!("{stack:?} {}", row.spring);
         worst[0].compare(limit.yield_force, Some(row.force), &name);
         worst[1].compare(Some(added.onset), Some(row.onset_per_speed), &name);

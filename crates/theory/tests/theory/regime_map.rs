@@ -1,7 +1,9 @@
 //! The regime map: known boundaries, and what the events do.
 
 use tristack_theory::model::HistoryUpdate::{Fixed, Rotated};
-use tristack_theory::model::{CRITICAL_FRICTION, ContactConvention, PAPER_STIFFNESS_RATIO, Stack};
+use tristack_theory::model::{
+    CRITICAL_FRICTION, ContactConvention, PAPER_STIFFNESS_RATIO, Problem, Stack,
+};
 use tristack_theory::theory::{
     Across, Axis, Boundary, BoundaryPoint, CLOSING_STIFFNESS_RATIO, EquilibriumPath, Event,
     FailureMode, Line, LoadingOutcome, LoadingPhase, RegimeMap, bracketed_root, pair_overlap,
@@ -60,7 +62,8 @@ fn a_yield_is_that_of_the_quasistatic_limit() {
     for (mu, stiffness) in [(0.1, 1e2), (0.2, 1e4), (0.3, 1e3), (0.5, 1e1 * 1e1)] {
         let stack = Stack::paper(mu, stiffness);
         let outcome = LoadingOutcome::of(&stack, Rotated).unwrap();
-        let limit = quasistatic_limit(&stack, &ContactConvention::TURNING);
+        let problem = Problem::new(stack, ContactConvention::TURNING).unwrap();
+        let limit = quasistatic_limit(&problem);
         assert_eq!(outcome.first.event, limit.event);
         assert_eq!(outcome.failure_mode, FailureMode::Yields);
         let (force, expected) = (outcome.largest_force.unwrap(), limit.yield_force.unwrap());
@@ -524,7 +527,8 @@ fn fixed_springs_end_where_the_limit_says() {
     ] {
         let stack = stack(mu, 0.7, stiffness, ratio);
         let outcome = LoadingOutcome::of(&stack, Fixed).unwrap();
-        let limit = quasistatic_limit(&stack, &ContactConvention::PAPER);
+        let problem = Problem::new(stack, ContactConvention::PAPER).unwrap();
+        let limit = quasistatic_limit(&problem);
         assert_eq!(outcome.first.event, limit.event);
         let difference = outcome.largest_force.unwrap() - limit.yield_force.unwrap();
         assert!(difference.abs() < 1e-9 * (limit.yield_force.unwrap() + 3.0));

@@ -66,7 +66,8 @@ impl Problem {
             bodies: self.bodies,
             ..Stack::paper(self.mu, self.stiffness)
         };
-        quasistatic_limit(&stack, &convention)
+        let problem = tristack_theory::model::Problem::new(stack, convention);
+        quasistatic_limit(&problem.expect("values in range"))
     }
 
     /// n.

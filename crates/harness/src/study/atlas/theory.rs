@@ -2,7 +2,7 @@
 
 use super::history::{Atlas, NamedPassport};
 use crate::code::ConventionKey;
-use crate::model::{Arms, ContactConvention, Stack};
+use crate::model::{Arms, ContactConvention, Problem, Stack};
 use crate::study::convention::PassportFile;
 use crate::theory::quasistatic_limit;
 
@@ -93,9 +93,13 @@ impl NamedPassport {
     }
 }
 
-/// Returns the change of the yield force of `stack` under `arms`, in percent of F + 3 under the paper's.
+/// Returns the change of the yield force of `stack` under `arms`, in percent of F + 3 under the paper's; `None` if it
+/// does not yield, or if a passport has an arm out of range.
 fn change(stack: &Stack, arms: Arms) -> Option<f64> {
-    let force = |arms| quasistatic_limit(stack, &ContactConvention::with_arms(arms)).yield_force;
+    let force = |arms| {
+        let problem = Problem::new(*stack, ContactConvention::with_arms(arms)).ok()?;
+        quasistatic_limit(&problem).yield_force
+    };
     let (paper, own) = force(Arms::PAPER).zip(force(arms))?;
     Some(100.0 * (own - paper) / stack.floor_load(paper))
 }

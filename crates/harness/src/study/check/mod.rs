@@ -29,7 +29,7 @@ use super::convention::ask;
 use super::yield_force::planned_protocol;
 use crate::code::{Code, Failure, InstalledCode, Run, RunContext, TaskKind, keep_evidence};
 use crate::files::{Scratch, temporary};
-use crate::model::{Arrangement, Case, ContactConvention, Power, Stack};
+use crate::model::{Arrangement, Case, ContactConvention, Power, Problem, Stack};
 use crate::theory::quasistatic_limit;
 use information::{information, same_bits};
 use micro::Micro;
@@ -57,7 +57,7 @@ pub fn case(convention: ContactConvention) -> Case {
         ..Stack::paper(FRICTION, STIFFNESS)
     };
     let protocol = |planned_by: &ContactConvention| {
-        let limit = quasistatic_limit(&stack, planned_by);
+        let limit = quasistatic_limit(&Problem::new(stack, *planned_by).ok()?);
         planned_protocol(&limit, &stack, planned_by, SPEED, TIME_STEP)
     };
     let own = protocol(&convention).or_else(|| protocol(&ContactConvention::TURNING));

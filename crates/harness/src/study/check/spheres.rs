@@ -3,7 +3,7 @@
 
 use super::report::{Grade, Item};
 use crate::dem::compress_stack;
-use crate::model::{Arrangement, Case, ContactConvention, Stack};
+use crate::model::{Arrangement, Case, ContactConvention, Problem, Stack};
 use crate::series::{Mechanics, Series, YieldEstimates};
 use crate::study::MAX_TOLERANCE;
 use crate::study::yield_force::planned_protocol;
@@ -26,7 +26,7 @@ pub(super) fn case(convention: ContactConvention, arrangement: Arrangement) -> O
         ..Stack::paper(FRICTION, STIFFNESS)
     };
     let convention = convention.of_bodies(&stack);
-    let limit = quasistatic_limit(&stack, &convention);
+    let limit = quasistatic_limit(&Problem::new(stack, convention).ok()?);
     let protocol = planned_protocol(&limit, &stack, &convention, SPEED, TIME_STEP)?;
     Some(Case {
         stack,

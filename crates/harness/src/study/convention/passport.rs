@@ -3,7 +3,7 @@
 use super::finding::{Finding, TOLERANCE};
 use super::measured::{Findings, contradicting};
 use crate::code::{Code, ConventionKey, Settled};
-use crate::model::{Arms, ContactConvention, DampingGrowth, Law, Material, Stack};
+use crate::model::{Arms, ContactConvention, DampingGrowth, Law, Material, Problem, Stack};
 use crate::study::Verdict;
 use crate::theory::{limit_uncertainty, quasistatic_limit};
 
@@ -197,7 +197,7 @@ fn effects(stack: Stack, measured: &Settled) -> ArmEffects {
             history_update: measured.convention.history_update,
             ..ContactConvention::with_arms(arms)
         };
-        quasistatic_limit(&stack, &convention).yield_force
+        quasistatic_limit(&Problem::new(stack, convention).ok()?).yield_force
     };
     let arms = measured.convention.arms;
     let paper_force = force(Arms::PAPER);
@@ -208,12 +208,13 @@ fn effects(stack: Stack, measured: &Settled) -> ArmEffects {
         Some(force(one)? - paper_force?)
     };
     let all_known = measured.knows_limit();
+    let own = Problem::new(stack, measured.convention).ok();
+    let uncertainty = own.and_then(|own| limit_uncertainty(&own, &measured.arm_uncertainty));
     ArmEffects {
         stack,
         paper_force,
         changes: ConventionKey::ARMS.map(alone),
         force: force(arms).filter(|_| all_known),
-        uncertainty: limit_uncertainty(&stack, &measured.convention, &measured.arm_uncertainty)
-            .filter(|_| all_known),
+        uncertainty: uncertainty.filter(|_| all_known),
     }
 }

@@ -3,7 +3,7 @@
 use super::critical::{CriticalPush, critical_pushes};
 use super::plan::{PreparationPlan, plan_preparation};
 use crate::code::{Code, Provenance, SettledCode, Unknown};
-use crate::model::{Arms, CRITICAL_FRICTION, Case, ContactConvention, Stack};
+use crate::model::{Arms, CRITICAL_FRICTION, Case, ContactConvention, Problem, Stack};
 use crate::runs::{RunError, RunSummary, Workload};
 use crate::series::YieldEstimates;
 use crate::study::yield_force::{
@@ -146,12 +146,17 @@ pub fn study_preparation(
     Ok(studies
         .map(|((stack, found), count)| PreparationStudy {
             stack: *stack,
-            exact_force: quasistatic_limit(stack, &ContactConvention::PAPER).yield_force,
+            exact_force: exact_force(stack),
             predicted_critical_push: critical_push(stack),
             critical_push: found,
             rows: rows.by_ref().take(count).collect(),
         })
         .collect())
+}
+
+fn exact_force(stack: &Stack) -> Option<f64> {
+    let problem = Problem::new(*stack, ContactConvention::PAPER).ok()?;
+    quasistatic_limit(&problem).yield_force
 }
 
 fn plans_of(

@@ -3,8 +3,8 @@
 
 use crate::code::SettledCode;
 use crate::model::{
-    Case, ContactConvention, HistoryUpdate, PAPER_BODIES, Power, Preparation, Protocol, Sampling,
-    Stack,
+    Case, ContactConvention, HistoryUpdate, PAPER_BODIES, Power, Preparation, Problem, Protocol,
+    Sampling, Stack,
 };
 use crate::study::yield_force::{REST_TIME, ramp_time};
 use crate::theory::{Limit, quasistatic_limit};
@@ -161,7 +161,10 @@ fn twin_runs(twin: Twin, cases: Vec<Case>) -> Option<TwinRuns> {
 
 /// One protocol per time step; none where nothing yields.
 fn protocols(stack: &Stack, convention: &ContactConvention) -> Vec<Protocol> {
-    let limit = quasistatic_limit(stack, convention);
+    let Ok(problem) = Problem::new(*stack, *convention) else {
+        return Vec::new();
+    };
+    let limit = quasistatic_limit(&problem);
     let Some(travel) = limit.yield_force.and(limit.peak_travel) else {
         return Vec::new();
     };
@@ -248,7 +251,7 @@ mod tests {
                 assert_eq!([ramp_time, rest_time], [100.0, 100.0], "{code}");
                 continue;
             }
-            let limit = quasistatic_limit(&case.stack, &case.convention);
+            let limit = quasistatic_limit(&case.problem().unwrap());
             assert!(limit.time_scale > 1.5, "{code}");
             assert!(ramp_time >= 1000.0 * limit.time_scale, "{code}");
             assert!(rest_time >= 100.0 * limit.time_scale, "{code}");

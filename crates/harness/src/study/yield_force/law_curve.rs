@@ -1,7 +1,7 @@
 //! What the contact law of a code does to the yield force, by theory.
 
 use crate::code::Code;
-use crate::model::{ContactConvention, Stack};
+use crate::model::{ContactConvention, Problem, Stack};
 use crate::theory::quasistatic_limit;
 use rayon::iter::{IntoParallelIterator, ParallelIterator};
 
@@ -71,8 +71,10 @@ pub fn law_curves(
                     stiffness_ratio,
                     ..Stack::paper(mu, stiffness)
                 };
-                let limit = quasistatic_limit(&stack, &convention);
-                (mu, limit.slip_onset, limit.yield_force)
+                let limit = Problem::new(stack, convention).map(|own| quasistatic_limit(&own));
+                let [onset, peak] =
+                    limit.map_or([None; 2], |own| [own.slip_onset, own.yield_force]);
+                (mu, onset, peak)
             });
             LawCurve {
                 code,

@@ -1,7 +1,7 @@
 //! The exact limits that measurements are held to.
 
 use crate::code::SettledCode;
-use crate::model::{ContactConvention, Stack};
+use crate::model::{ContactConvention, Problem, Stack};
 use crate::theory::{Limit, limit_uncertainty, quasistatic_limit};
 use std::collections::BTreeMap;
 use std::sync::{Mutex, PoisonError};
@@ -14,11 +14,11 @@ pub(super) fn convention_uncertainty(
     convention: &ContactConvention,
 ) -> Option<f64> {
     let uncertainty = code.settled().measured_arms()?;
-    limit_uncertainty(stack, convention, &uncertainty)
+    limit_uncertainty(&Problem::new(*stack, *convention).ok()?, &uncertainty)
 }
 
-/// The exact limit of `stack` under `convention`. It is computed once: the plans of many codes, methods and
-/// preparations share it.
+/// The exact limit of `stack` under `convention`; none, with the reason, if a value is out of range. It is computed
+/// once: the plans of many codes, methods and preparations share it.
 pub(super) fn known_limit(stack: &Stack, convention: &ContactConvention) -> Limit {
     static KNOWN: Mutex<BTreeMap<String, Limit>> = Mutex::new(BTreeMap::new());
     let known = || KNOWN.lock().unwrap_or_else(PoisonError::into_inner);
@@ -26,7 +26,15 @@ pub(super) fn known_limit(stack: &Stack, convention: &ContactConvention) -> Limi
     if let Some(limit) = known().get(&key) {
         return limit.clone();
     }
-    let limit = quasistatic_limit(stack, convention);
+    let limit = match Problem::new(*stack, *convention) {
+        Ok(problem) => quasistatic_limit(&problem),
+        Err(refused) => Limit {
+            bodies: stack.bodies,
+            time_scale: 1.0,
+            reason: Some(refused.to_string()),
+            ..Limit::default()
+        },
+    };
     known().insert(key, limit.clone());
     limit
 }

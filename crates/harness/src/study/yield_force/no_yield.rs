@@ -1,6 +1,6 @@
 //! The refusal to run a stack that does not yield.
 
-use crate::model::{ContactConvention, InvalidValue, Stack, exact};
+use crate::model::{InvalidValue, Problem, Stack, exact};
 use crate::theory::{Limit, quasistatic_limit};
 use thiserror::Error;
 
@@ -35,28 +35,25 @@ impl NoYield {
 }
 
 /// The refusal to run a stack that does not yield, with the accepted frictions.
-pub fn no_yield(stack: &Stack, convention: &ContactConvention, limit: &Limit) -> NoYield {
+pub fn no_yield(problem: &Problem, limit: &Limit) -> NoYield {
     NoYield {
-        stack: *stack,
+        stack: *problem.stack(),
         reason: limit
             .reason
             .as_deref()
             .unwrap_or("no yield force")
             .to_owned(),
-        range: yielding_frictions(stack, convention),
+        range: yielding_frictions(problem),
     }
 }
 
 /// Lowest and highest floor friction at which a stack like this one yields by sliding on the floor, to
 /// four digits; `None` if there is none.
-fn yielding_frictions(stack: &Stack, convention: &ContactConvention) -> Option<(f64, f64)> {
+fn yielding_frictions(problem: &Problem) -> Option<(f64, f64)> {
     const GRID: f64 = 0.01;
     let yields = |floor_friction: f64| {
-        let stack = Stack {
-            floor_friction,
-            ..*stack
-        };
-        quasistatic_limit(&stack, convention).yield_force.is_some()
+        let other = problem.with_floor_friction(floor_friction);
+        other.is_ok_and(|own| quasistatic_limit(&own).yield_force.is_some())
     };
     let grid: Vec<f64> = (1..=100).map(|index| GRID * f64::from(index)).collect();
     let first = grid.iter().position(|&friction| yields(friction))?;
@@ -81,12 +78,12 @@ fn yielding_frictions(stack: &Stack, convention: &ContactConvention) -> Option<(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::model::CRITICAL_FRICTION;
+    use crate::model::{CRITICAL_FRICTION, ContactConvention};
 
     #[test]
     fn frictions_that_yield_lie_between_own_weight_and_wall_contact() {
-        let (lowest, highest) =
-            yielding_frictions(&Stack::paper(0.05, 1e2), &ContactConvention::TURNING).unwrap();
+        let problem = Problem::new(Stack::paper(0.05, 1e2), ContactConvention::TURNING);
+        let (lowest, highest) = yielding_frictions(&problem.unwrap()).unwrap();
         assert!((lowest - CRITICAL_FRICTION / 3.0).abs() < 2e-3);
         // The wall reaches cylinder 2 first above 0.53994 (reference/golden, closed form).
         assert!((highest - 0.53994).abs() < 2e-5);

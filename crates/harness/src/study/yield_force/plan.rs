@@ -9,8 +9,8 @@ use super::symmetry::lost_before_yield;
 use super::touch::{is_gentle, is_surely_gentle, max_touch_speed};
 use crate::code::SettledCode;
 use crate::model::{
-    Arms, Case, ContactConvention, Law, PAPER_BODIES, Preparation, Protocol, Sampling, Shortcuts,
-    Stack,
+    Arms, Case, ContactConvention, Law, PAPER_BODIES, Preparation, Problem, Protocol, Sampling,
+    Shortcuts, Stack,
 };
 use crate::series::YieldEstimates;
 use crate::theory::{Limit, LimitCurve, SpeedExcess};
@@ -213,7 +213,9 @@ pub(crate) fn planned(
         cases.clear();
         limit.reason = Some(reason);
     }
-    let fastest = cases.first().map_or(0.0, |case| case.protocol.wall_speed);
+    let fastest = cases.first();
+    let is_gentle =
+        fastest.is_none_or(|case| is_gentle(case.protocol.wall_speed, stack, &convention));
     let roles = RunRoles {
         coarse_and_fast: (cases.len() > COARSE_AND_FAST_RUN).then_some(COARSE_AND_FAST_RUN),
         has_slow_ramps: limit.needs_slow_ramp,
@@ -229,7 +231,7 @@ pub(crate) fn planned(
             .flatten(),
         method,
         convention_uncertainty: convention_uncertainty(code, stack, &convention),
-        is_gentle: is_gentle(fastest, stack, &convention),
+        is_gentle,
         cases,
         roles,
         limit,
@@ -243,7 +245,8 @@ pub(super) fn speed_excess(
     convention: &ContactConvention,
     limit: &Limit,
 ) -> Option<SpeedExcess> {
-    LimitCurve::new(stack, convention).speed_excess(stack, limit)
+    let problem = Problem::new(*stack, *convention).ok()?;
+    LimitCurve::new(&problem).speed_excess(&problem, limit)
 }
 
 fn planned_protocols(

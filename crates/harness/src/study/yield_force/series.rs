@@ -7,7 +7,7 @@ use super::runs::{MIDDLE_RUN, Method, RunRoles, SPEEDS};
 use super::touch::is_gentle;
 use crate::code::{Identity, Provenance, Run, SettledCode};
 use crate::model::{
-    Arms, Case, ContactConvention, ContactLaw, Preparation, Protocol, Sampling, Stack,
+    Arms, Case, ContactConvention, ContactLaw, Preparation, Problem, Protocol, Sampling, Stack,
 };
 use crate::runs::RunSummary;
 use crate::series::{Mechanics, Sample, Series};
@@ -112,8 +112,9 @@ pub fn judge_series(
     };
     let positions = [further(coarse_time_step), further(short_ramp)];
     let mut measurement = measurement(stack, convention, &used, positions)?;
+    let problem = Problem::new(*stack, convention).ok()?;
     measurement.convention_uncertainty =
-        arm_uncertainty.and_then(|arms| limit_uncertainty(stack, &convention, &arms));
+        arm_uncertainty.and_then(|arms| limit_uncertainty(&problem, &arms));
     let runs = used.iter().map(|found| found.summary.clone()).collect();
     let evaluation = measurement.evaluate(vec![runs]);
     Some(JudgedSeries {

@@ -3,7 +3,7 @@
 use super::super::document::{Block, Section};
 use super::tolerances::Agreement;
 use crate::code::Code;
-use crate::model::{CRITICAL_FRICTION, ContactConvention, Power, Stack};
+use crate::model::{CRITICAL_FRICTION, ContactConvention, Power, Problem, Stack};
 use crate::number::{digits, friction_in_tex, percent, power_of_ten, stiffness_in_tex};
 use crate::paper::claims::{ClaimJudgement, ClaimVerdict, list};
 use crate::paper::published::{Published, RepeatedForce};
@@ -306,13 +306,16 @@ pub(crate) fn points(judgements: &[Judgement]) -> DataTable<'_> {
         let frictions = [0.2, CRITICAL_FRICTION, 0.3, 0.4].into_iter();
         frictions.map(move |mu| Stack::paper(mu, stiffness))
     });
-    let rows = stacks.map(|stack| Predictions::new(&stack, &ContactConvention::PAPER));
+    let rows = stacks.map(|stack| {
+        let problem = Problem::new(stack, ContactConvention::PAPER);
+        Predictions::new(&problem.expect("the stacks of the figure are in range"))
+    });
     let mut columns = Columns::<Predictions>::new(
         "points",
         "A row is the yield force F of one stack of Fig. 2(a), by theory and by every code.",
         "`tristack report` (tables/points.csv)",
     )
-    .stack(|theory| theory.stack)
+    .stack(|theory| *theory.problem.stack())
     .number("perturbation", "m g", |theory| {
         theory.perturbation.yield_force
     })
@@ -332,7 +335,7 @@ pub(crate) fn points(judgements: &[Judgement]) -> DataTable<'_> {
         let is_here = judgements.iter().any(|row| row.code == code);
         columns = columns
             .number(name.clone(), "m g", move |theory| {
-                let stack = &theory.stack;
+                let stack = theory.problem.stack();
                 let mut rows = judgements.iter();
                 let own = rows.find(|row| {
                     let place = (row.mu(), row.stiffness());

@@ -8,9 +8,9 @@ use crate::claims::notation::{
 };
 use crate::claims::truth::{
     NORMAL_STIFFNESS, RADIUS, RATIOS, YieldState, elastic_displacement, figure_loads, pairs,
-    yield_force, yield_states,
+    paper_limit, yield_force, yield_states,
 };
-use crate::model::{Arms, CRITICAL_FRICTION, ContactConvention, Stack};
+use crate::model::{Arms, CRITICAL_FRICTION, ContactConvention, Problem, Stack};
 use crate::study::yield_force::PAPER_STIFFNESSES;
 use crate::theory::{elastic_root, quasistatic_limit};
 
@@ -112,9 +112,8 @@ pub(crate) const CHECKS: &[Check] = &[
     }),
     Check::theory("stiff-displacement-of-dem", |paper| {
         let differences = [0.28, 0.3, 0.4, 0.5].map(|mu| {
-            let limit =
-                quasistatic_limit(&paper.stack(mu, NEARLY_RIGID), &ContactConvention::PAPER);
-            let exact = limit.z.unwrap_or(f64::NAN);
+            let limit = paper_limit(&paper.stack(mu, NEARLY_RIGID));
+            let exact = limit.and_then(|limit| limit.z).unwrap_or(f64::NAN);
             let printed = paper.stiff_displacement(mu, paper.stiffness_ratio, 1.0);
             (mu, printed / exact - 1.0)
         });
@@ -138,9 +137,8 @@ pub(crate) const CHECKS: &[Check] = &[
             load / (yield_force(&stack) + 3.0) - 1.0
         });
         let displacements = [0.2, 0.3, 0.5].map(|mu| {
-            let limit =
-                quasistatic_limit(&Stack::paper(mu, NEARLY_RIGID), &ContactConvention::PAPER);
-            (mu, limit.z.unwrap_or(f64::NAN))
+            let limit = paper_limit(&Stack::paper(mu, NEARLY_RIGID));
+            (mu, limit.and_then(|limit| limit.z).unwrap_or(f64::NAN))
         });
         let listed = displacements
             .map(|(mu, z)| format!("${}r$ at {}", scientific(z, 1), values(FRICTION, &[mu])));
@@ -210,8 +208,9 @@ pub(crate) const CHECKS: &[Check] = &[
         let change = |convention: ContactConvention, mu: f64, stiffness: f64| {
             let stack = Stack::paper(mu, stiffness);
             let force = |arms| {
-                let limit = quasistatic_limit(&stack, &ContactConvention { arms, ..convention });
-                limit.floor_slip_force.unwrap_or(f64::NAN)
+                let problem = Problem::new(stack, ContactConvention { arms, ..convention });
+                let force = |own: Problem| quasistatic_limit(&own).floor_slip_force;
+                problem.ok().and_then(force).unwrap_or(f64::NAN)
             };
             force(half_way) / force(Arms::PAPER) - 1.0
         };

@@ -4,12 +4,11 @@ use super::Check;
 use crate::claims::finding::{Finding, worst};
 use crate::claims::notation::{FRICTION, STIFFNESS, fixed, number, range, values};
 use crate::claims::printed::PaperTheory;
-use crate::claims::truth::pairs;
-use crate::model::{ContactConvention, HistoryUpdate, Stack};
+use crate::claims::truth::{pairs, paper_limit};
+use crate::model::{ContactConvention, HistoryUpdate, Problem, Stack};
 use crate::study::yield_force::PAPER_STIFFNESSES;
 use crate::theory::{
     Boundary, EquilibriumPath, Event, LoadingOutcome, bracketed_root, elastic_root, followed_limit,
-    quasistatic_limit,
 };
 
 pub(crate) const CHECKS: &[Check] = &[
@@ -72,15 +71,13 @@ pub(crate) const CHECKS: &[Check] = &[
         let at = |stiffness| wall_contact_friction(paper, stiffness, HistoryUpdate::Fixed);
         let closed = at(paper.lowest_stiffness);
         let side = |mu: f64| {
-            followed_limit(
-                &stack(paper, mu, paper.lowest_stiffness),
-                &ContactConvention::PAPER,
-            )
-            .event
+            let stack = stack(paper, mu, paper.lowest_stiffness);
+            let problem = Problem::new(stack, ContactConvention::PAPER).ok()?;
+            Some(followed_limit(&problem).event)
         };
         let distance = 1e-4;
-        let confirmed = side(closed - distance) == Event::FloorSlip
-            && side(closed + distance) == Event::WallContact;
+        let confirmed = side(closed - distance) == Some(Event::FloorSlip)
+            && side(closed + distance) == Some(Event::WallContact);
         let stiffer = [1e3, 1e4];
         let evidence = format!(
             "exact quasi-static limit at {}: from $\\mu = {closed:.5}$ on the top wall reaches cylinder 2 before the floor \
@@ -129,8 +126,8 @@ pub(crate) const CHECKS: &[Check] = &[
                 if let Some(outcome) = LoadingOutcome::of(&base, HistoryUpdate::Fixed) {
                     slips += usize::from(outcome.first.event == Event::CylinderSlip);
                 }
-                let limit = quasistatic_limit(&base, &ContactConvention::PAPER);
-                highest = highest.max(limit.pair_friction.unwrap_or(0.0));
+                let limit = paper_limit(&base);
+                highest = highest.max(limit.and_then(|limit| limit.pair_friction).unwrap_or(0.0));
             }
         }
         let evidence = format!(

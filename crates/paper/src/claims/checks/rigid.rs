@@ -4,9 +4,8 @@ use super::Check;
 use crate::claims::finding::{Finding, imbalance, relative, worst};
 use crate::claims::notation::{FRICTION, STIFFNESS, list, range};
 use crate::claims::printed::PaperTheory;
-use crate::claims::truth::{Balanced, Forces, equilibrium, pairs, turned};
-use crate::model::{CRITICAL_FRICTION, ContactConvention, Stack};
-use crate::theory::quasistatic_limit;
+use crate::claims::truth::{Balanced, Forces, equilibrium, pairs, paper_limit, turned};
+use crate::model::{CRITICAL_FRICTION, Stack};
 use nalgebra::{Matrix6, Vector2, Vector6};
 
 pub(crate) const CHECKS: &[Check] = &[
@@ -34,7 +33,7 @@ pub(crate) const CHECKS: &[Check] = &[
     Check::theory("coulomb-slip", |paper| {
         let frictions = [0.12, 0.2, CRITICAL_FRICTION, 0.3, 0.5];
         let deviations = pairs(frictions, [1e2, 1e3, 1e4]).filter_map(|(mu, stiffness)| {
-            let limit = quasistatic_limit(&Stack::paper(mu, stiffness), &ContactConvention::PAPER);
+            let limit = paper_limit(&Stack::paper(mu, stiffness))?;
             let epsilon = 1.0 / stiffness;
             let shear = (limit.z? - epsilon) * limit.tangent?;
             let load = (limit.floor_slip_force? + paper.stack_weights) * epsilon;
@@ -47,8 +46,8 @@ pub(crate) const CHECKS: &[Check] = &[
         let frictions = [0.12, 0.2, CRITICAL_FRICTION, 0.3, 0.4, 0.5, 0.53];
         let stiffnesses = [paper.lowest_stiffness, 1e3, paper.highest_stiffness];
         let inward = pairs(frictions, stiffnesses).map(|(mu, stiffness)| {
-            let limit = quasistatic_limit(&paper.stack(mu, stiffness), &ContactConvention::PAPER);
-            -limit.y.unwrap_or(f64::NAN) * stiffness
+            let limit = paper_limit(&paper.stack(mu, stiffness));
+            -limit.and_then(|limit| limit.y).unwrap_or(f64::NAN) * stiffness
         });
         let lowest = -worst(inward);
         let evidence = format!(

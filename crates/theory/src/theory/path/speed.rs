@@ -530,7 +530,7 @@ impl SlidingMotion {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::model::{Arms, HistoryUpdate, Law, TangentialHistory};
+    use crate::model::{Arms, HistoryUpdate, Law, Problem, TangentialHistory};
     use crate::theory::LimitCurve;
     use crate::theory::path::{BottomContact, followed_path};
 
@@ -727,8 +727,10 @@ mod tests {
     }
 
     fn excess(stack: &Stack, convention: &ContactConvention) -> SpeedExcess {
-        let curve = LimitCurve::new(stack, convention);
-        curve.speed_excess(stack, &curve.limit(stack)).unwrap()
+        let problem = Problem::new(*stack, *convention).unwrap();
+        let curve = LimitCurve::new(&problem);
+        let limit = curve.limit(&problem);
+        curve.speed_excess(&problem, &limit).unwrap()
     }
 
     /// δF = 1.3550 v and 12.32 v by the integral of (59) and by (60), which hold for springs that turn and arms 0
@@ -796,9 +798,10 @@ mod tests {
     fn nothing_is_added_where_theory_knows_no_way() {
         let paper = ContactConvention::PAPER;
         let none = |stack: &Stack, convention: &ContactConvention| {
-            let curve = LimitCurve::new(stack, convention);
-            let limit = curve.limit(stack);
-            assert!(curve.speed_excess(stack, &limit).is_none());
+            let problem = Problem::new(*stack, *convention).unwrap();
+            let curve = LimitCurve::new(&problem);
+            let limit = curve.limit(&problem);
+            assert!(curve.speed_excess(&problem, &limit).is_none());
             limit
         };
         // The native code has 330 per unit of speed; a continuous motion would have 296.

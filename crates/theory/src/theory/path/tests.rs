@@ -99,7 +99,7 @@ fn a_stack_of_soft_contacts_says_that_it_is_slow() {
             law,
             ..ContactConvention::PAPER
         };
-        let limit = followed_limit(&stack, &convention);
+        let limit = followed_limit(&Problem::new(stack, convention).unwrap());
         (limit.time_scale, limit.needs_slow_ramp)
     };
     assert_eq!(of(Law::LINEAR), (1.0, false));

@@ -12,6 +12,11 @@ fn stack(bodies: u8, mu: f64, stiffness: f64) -> Stack {
     }
 }
 
+fn predictions(stack: Stack) -> Predictions {
+    let problem = tristack_theory::model::Problem::new(stack, ContactConvention::TURNING);
+    Predictions::new(&problem.expect("values in range"))
+}
+
 #[test]
 fn rigid_spheres_yield_at_the_force_of_their_pyramid() {
     // sin ψ₀ over a pentagon: 1/(2 sin 36°).
@@ -29,7 +34,7 @@ fn rigid_spheres_yield_at_the_force_of_their_pyramid() {
         let expected = (weight * mu - critical) / (critical - mu);
         assert!((force - expected).abs() < 1e-12, "{bodies}");
         // Almost rigid ones: the first correction is of the order of 1/stiffness.
-        let stiff = Predictions::new(&stack(bodies, mu, 1e8), &ContactConvention::TURNING);
+        let stiff = predictions(stack(bodies, mu, 1e8));
         let limit = stiff.quasistatic.yield_force.unwrap();
         assert!(
             (limit - expected).abs() < 1e-6,
@@ -50,7 +55,7 @@ fn stiff_spheres_slide_under_their_own_weight_below_the_critical_friction_over_t
             stack(bodies, 0.3, 1e2).ring().critical_friction / (f64::from(bodies) + 1.0);
         let at = |factor: f64| {
             let stack = stack(bodies, factor * threshold, 1e8);
-            Predictions::new(&stack, &ContactConvention::TURNING).quasistatic
+            predictions(stack).quasistatic
         };
         let (sliding, standing) = (at(1.0 - 1e-6), at(1.0 + 1e-6));
         assert!(sliding.rest.is_none() && sliding.reason.unwrap().contains("own weight"));
@@ -93,7 +98,7 @@ fn the_first_event_is_the_one_whose_condition_is_met_first() {
                 cylinder_friction: mu_d,
                 ..stack(bodies, mu, 1e2)
             };
-            Predictions::new(&stack, &ContactConvention::TURNING).quasistatic
+            predictions(stack).quasistatic
         };
         // Spheres slip on each other at T = μ_d.
         let slippery = stack(bodies, 0.3, 1e2).ring().critical_friction + 0.04;

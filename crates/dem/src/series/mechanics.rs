@@ -299,8 +299,7 @@ impl<'a> Stack<'a> {
     /// Returns the force of a wall at an overlap that grows at a speed, and the factor by which errors of the overlap
     /// enter the force.
     fn of_wall(&self, overlap: f64, speed: f64) -> (f64, f64) {
-        let own = self.wall_law.at(overlap);
-        let force = own.secant * overlap + own.damping_normal * speed;
+        let force = self.wall_law.at(overlap).normal_force(overlap, speed);
         (force, self.wall_law.stiffness(overlap).max(1.0))
     }
 
@@ -508,8 +507,7 @@ impl<'a> Stack<'a> {
         let overlap = 2.0 - sample.neighbour_distance(stack);
         let parting = five.rates(|row| row.neighbour_distance(stack)).velocity;
         if overlap > 0.0 {
-            let own = self.law.at(overlap);
-            stack.ring().push * (own.secant * overlap - own.damping_normal * parting)
+            stack.ring().push * self.law.at(overlap).normal_force(overlap, -parting)
         } else {
             0.0
         }

@@ -51,7 +51,7 @@ impl PairContact {
         let overlap = 2.0 - distance;
         let approach = -(sine * apart + cosine * sinking);
         let own = law.at(overlap);
-        let normal = own.secant * overlap + own.damping_normal * approach;
+        let normal = own.normal_force(overlap, approach);
         let arms = convention.arms;
         let pair_lever = 1.0 + arms.pair.torque * overlap;
         let floor_lever = 1.0 + arms.floor.torque * (1.0 - sample.height);

@@ -394,7 +394,7 @@ impl Reader {
         let at = law.at(row.overlap);
         let arms = [arms.kinematic, arms.torque].map(|arm| 1.0 + arm * row.overlap);
         let separation = dot(row.normal, row.velocity);
-        let normal_force = at.secant * row.overlap - at.damping_normal * separation;
+        let normal_force = at.normal_force(row.overlap, -separation);
         let rolled = [0, 1, 2].map(|axis| {
             let mut own = [0.0; 3];
             own[axis] = -arms[0] * row.spin[axis];

@@ -103,6 +103,14 @@ impl<N> ContactLaw<N> {
     }
 }
 
+impl ContactCoefficients {
+    /// The normal force of spring and dashpot, positive in compression, at this `overlap` while it grows at the speed
+    /// `approach`.
+    pub fn normal_force(&self, overlap: f64, approach: f64) -> f64 {
+        self.secant * overlap + self.damping_normal * approach
+    }
+}
+
 impl<N: Copy + Mul<Output = N>> ContactLaw<N> {
     /// Returns the coefficients at an overlap; `root` computes the square root, and `stiffening` computes 2/(2 − δ).
     #[inline(always)]

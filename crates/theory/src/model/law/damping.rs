@@ -65,7 +65,7 @@ mod tests {
     fn restitution(law: &ContactLaw, speed: f64, step: f64) -> f64 {
         let rate = |[overlap, speed]: [f64; 2]| {
             let own = law.at(overlap.max(0.0));
-            [speed, -own.secant * overlap - own.damping_normal * speed]
+            [speed, -own.normal_force(overlap, speed)]
         };
         let moved = |from: [f64; 2], by: f64, rate: [f64; 2]| {
             [from[0] + by * rate[0], from[1] + by * rate[1]]

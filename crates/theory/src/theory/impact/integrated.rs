@@ -143,7 +143,7 @@ impl Equations {
     /// The force by the law, negative where it would pull.
     fn force(&self, state: &State) -> f64 {
         let own = self.law.at(state.overlap);
-        own.secant * state.overlap + own.damping_normal * state.rate
+        own.normal_force(state.overlap, state.rate)
     }
 
     /// Returns the next state in which `event`, positive before, is 0.
@@ -201,7 +201,7 @@ impl ODE<f64, [f64; 4]> for Equations {
     fn diff(&self, _time: f64, values: &[f64; 4], slope: &mut [f64; 4]) {
         let [overlap, rate, momentum, _] = *values;
         let own = self.law.at(overlap);
-        let pushing = own.secant * overlap + own.damping_normal * rate;
+        let pushing = own.normal_force(overlap, rate);
         let normal = if self.never_pulls {
             pushing.max(0.0)
         } else {

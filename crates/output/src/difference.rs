@@ -51,7 +51,7 @@ pub fn passport_forces(forces: &[ForceChange]) -> DataTable<'_> {
     .means("friction of the floor")
     .shown_as("mu", plain)
     .number("kappa", "1", |own| own.before.kappa)
-    .means("k_t/k_n")
+    .means("κ = k_n/k_t")
     .shown_as("kappa", plain)
     .number("before", "m g", |own| own.before.force)
     .means("F under the arms of the first passport; absent where one is not known")

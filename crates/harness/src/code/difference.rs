@@ -32,8 +32,11 @@ pub(super) fn difference(
 
 /// A value as it is written in a case file, without quotation marks.
 fn plain(value: &serde_json::Value) -> String {
-    let text = value.as_str().map(str::to_owned);
-    text.unwrap_or_else(|| value.to_string())
+    match value {
+        serde_json::Value::Null => "left out".to_owned(),
+        serde_json::Value::String(text) => text.clone(),
+        _ => value.to_string(),
+    }
 }
 
 #[cfg(test)]

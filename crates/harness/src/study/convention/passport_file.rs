@@ -77,7 +77,7 @@ pub struct ArmEffect {
     pub stiffness: f64,
     /// Friction of the floor.
     pub mu: f64,
-    /// k_t/k_n.
+    /// κ = k_n/k_t.
     pub kappa: f64,
     /// The force with the paper's arms, in m g.
     pub paper_force: Option<f64>,

@@ -3,16 +3,16 @@
 /// Root mean square of one rounding, in units of the last place: 1/√12.
 pub(crate) const ROUNDING: f64 = 0.288_675_134_594_812_9;
 
-/// Smallest tolerance, relative to F + 3: the guaranteed accuracy of the limit itself for arbitrary torque arms
-/// (crates/theory/tests/theory/golden.rs).
+/// Smallest tolerance, relative to the load on the floor, which is F + 3 for cylinders: the guaranteed accuracy of the
+/// limit itself for arbitrary torque arms (crates/theory/tests/theory/golden.rs).
 pub const MIN_TOLERANCE: f64 = 1e-7;
 
-/// Largest tolerance, relative to F + 3: agreement between independent codes is worth the name at 1e-5.
+/// Largest tolerance, relative to the load on the floor: agreement between independent codes is worth the name at 1e-5.
 /// An uncertainty above it decides nothing.
 pub const MAX_TOLERANCE: f64 = 1e-5;
 
-/// The tolerance for an uncertainty, both relative to F + 3: the uncertainty itself, but at least [`MIN_TOLERANCE`]
-/// and at most [`MAX_TOLERANCE`].
+/// The tolerance for an uncertainty, both relative to the load on the floor: the uncertainty itself, but at least
+/// [`MIN_TOLERANCE`] and at most [`MAX_TOLERANCE`].
 pub fn tolerance(uncertainty: f64) -> f64 {
     uncertainty.clamp(MIN_TOLERANCE, MAX_TOLERANCE)
 }
@@ -22,7 +22,7 @@ mod tests {
     use super::*;
     use crate::study::{Grounds, Verdict};
 
-    /// The verdict on an error with its uncertainty, both relative to F + 3.
+    /// The verdict on an error with its uncertainty, both relative to the load on the floor.
     fn judge(error: f64, uncertainty: f64) -> Verdict {
         let mut grounds = Grounds::new();
         grounds.compare(error, uncertainty, tolerance(uncertainty), None);

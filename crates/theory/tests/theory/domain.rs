@@ -2,8 +2,11 @@
 //! relations that must hold between them.
 
 use proptest::prelude::*;
-use tristack_theory::model::{Arms, ContactArms, ContactConvention, Problem, Stack};
-use tristack_theory::theory::{Predictions, closed_form_limit, followed_limit};
+use tristack_theory::model::{Arms, ContactArms, ContactConvention, HistoryUpdate, Problem, Stack};
+use tristack_theory::theory::{
+    LoadingOutcome, Predictions, closed_form_limit, critical_push, elastic_root, floor_slip_force,
+    followed_limit, pushed_slip_force, rigid_yield,
+};
 
 /// Values spread evenly over the logarithm.
 fn logarithmic(lowest: f64, highest: f64) -> impl Strategy<Value = f64> {
@@ -103,6 +106,39 @@ proptest! {
             prop_assert!(tangents[1] > tangents[0]);
             // The force itself may fall again beyond T = 0.7, where the stack softens.
             prop_assert!(rough > smooth || tangents[0] > Some(0.7), "{smooth} {rough}");
+        }
+    }
+}
+
+/// What takes a stack alone, without a check, ends whatever its numbers are: two wrong values at once.
+#[test]
+fn formulas_of_a_stack_end_with_any_numbers() {
+    const WRONG: [f64; 5] = [f64::NAN, f64::INFINITY, -1.0, 0.0, 1e300];
+    let values: [fn(&mut Stack) -> &mut f64; 4] = [
+        |stack| &mut stack.floor_friction,
+        |stack| &mut stack.cylinder_friction,
+        |stack| &mut stack.stiffness,
+        |stack| &mut stack.stiffness_ratio,
+    ];
+    for (index, first) in values.iter().enumerate() {
+        for second in &values[index..] {
+            for (one, other) in WRONG
+                .iter()
+                .flat_map(|one| WRONG.map(|other| (*one, other)))
+            {
+                let mut stack = Stack::paper(0.3, 1e3);
+                *first(&mut stack) = one;
+                *second(&mut stack) = other;
+                rigid_yield(&stack);
+                elastic_root(&stack);
+                floor_slip_force(&stack);
+                closed_form_limit(&stack);
+                critical_push(&stack);
+                for rule in [HistoryUpdate::Fixed, HistoryUpdate::Rotated] {
+                    pushed_slip_force(&stack, 1e-3, rule);
+                    LoadingOutcome::of(&stack, rule);
+                }
+            }
         }
     }
 }

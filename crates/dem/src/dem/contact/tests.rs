@@ -1,7 +1,7 @@
 //! Tests of the contact law and of the equations of a step.
 
 use super::*;
-use crate::dem::geometry::Space;
+use crate::dem::geometry::{Facing, Space};
 
 /// A contact with a wall along which a body slides.
 pub(in crate::dem) const CONTACT: Contact<f64> = Contact {
@@ -365,4 +365,71 @@ fn a_spring_in_space_turns_as_its_convention_says() {
     let twisted = carried(HistoryUpdate::Linearised, [0.0, 2e-3, 0.0]);
     assert!((twisted[0] - product[0] - 4.0 * 1e-3).abs() < 1e-14);
     assert!((twisted[2] - product[2] + 3.0 * 1e-3).abs() < 1e-6);
+}
+
+/// A normal; the tangent is (−0.8, 0.6).
+const NORMAL: [f64; 2] = [0.6, 0.8];
+
+#[test]
+fn a_pair_overlaps_parts_and_slides_as_its_bodies_lie_and_move() {
+    let mut bodies = [Body::at(0.9, 1.2), Body::at(0.0, 0.0)];
+    bodies[0].velocity = [1.0, 0.0];
+    bodies[1].velocity = [0.0, 0.5];
+    (bodies[0].spin, bodies[1].spin) = (0.25, 0.5);
+    let [i, j] = &bodies;
+    let contact = Contact::<f64>::of_pair([i, j], Body::apart([i, j]), 0.3, 0.1);
+    assert_eq!(contact.counterpart, Counterpart::Cylinder);
+    assert!(is_near(contact.normal, NORMAL));
+    assert!(is_near([contact.overlap, contact.spin], [0.5, 0.75]));
+    let found = [contact.separation_speed, contact.sliding_speed];
+    assert!(is_near(found, [0.2, -1.1]), "{found:?}");
+    assert_eq!([contact.friction, contact.time_step], [0.3, 0.1]);
+}
+
+#[test]
+fn a_body_parts_from_a_wall_by_its_speed_beyond_that_of_the_wall() {
+    let mut body: Body = Body::at(0.0, 0.9);
+    (body.velocity, body.spin) = ([0.5, 1.0], 0.125);
+    let floor = PlaneWall {
+        facing: Facing::Up,
+        offset: 0.0,
+        speed: 0.25,
+        friction: 0.3,
+    };
+    let contact = Contact::with_wall(&body, &floor, 0.1, 0.05);
+    assert_eq!(contact.counterpart, Counterpart::Wall);
+    assert_eq!(contact.normal, [0.0, 1.0]);
+    assert_eq!([contact.overlap, contact.separation_speed], [0.1, 0.75]);
+    // The tangent is (−1, 0).
+    assert_eq!([contact.sliding_speed, contact.spin], [-0.5, 0.125]);
+    assert_eq!([contact.friction, contact.time_step], [0.3, 0.05]);
+}
+
+/// Opposite forces, and equal torques, since the force along the tangent has opposite arms too.
+#[test]
+fn a_force_acts_on_both_bodies_where_they_touch() {
+    let force = ContactForce::<f64>::new(2.0, 5.0, 0.5);
+    let weight = Load::<f64>::weight(0.5);
+    assert_eq!((weight.force, weight.torque), ([0.0, -0.5], 0.0));
+    let [mut first, mut second] = [weight; 2];
+    force.act_on_pair(NORMAL, Touch::Everywhere, [&mut first, &mut second]);
+    assert!(is_near(first.force, [-2.8, 4.1]), "{first:?}");
+    assert!(is_near(second.force, [2.8, -5.1]), "{second:?}");
+    assert_eq!([first.torque, second.torque], [-2.5; 2]);
+    let [mut first, mut second] = [weight; 2];
+    force.act_on_pair(NORMAL, Touch::Where(false), [&mut first, &mut second]);
+    assert_eq!([first, second], [weight; 2]);
+}
+
+#[test]
+fn a_step_kicks_velocities_and_drifts_with_them() {
+    let mut body: Body = Body::at(0.0, 1.0);
+    let load = Load {
+        force: [1.0, -2.0],
+        torque: 3.0,
+    };
+    body.advance(&load, 0.5, 0.1);
+    assert!(is_near(body.velocity, [0.1, -0.2]));
+    assert!(is_near(body.position, [0.01, 0.98]));
+    assert!(is_near([body.spin, body.angle], [0.6, 0.06]));
 }

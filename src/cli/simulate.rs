@@ -268,6 +268,7 @@ fn completed(written: &PartialCase, code: &SettledCode) -> Result<Case, InvalidV
     let own = &written.protocol;
     let convention = written.convention.unwrap_or_else(|| of_files(code));
     let stack = written.stack.in_law(convention.law.power);
+    stack.validate()?;
     let convention = convention.of_bodies(&stack);
     let problem = Problem::new(stack, convention)?;
     let limit = quasistatic_limit(&problem);

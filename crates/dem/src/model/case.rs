@@ -78,7 +78,8 @@ pub enum CaseError {
 impl Case {
     /// Checks every value; the error names the first that is out of range.
     pub fn validate(&self) -> Result<(), InvalidValue> {
-        self.problem()?;
+        self.stack.validate()?;
+        self.convention.validate()?;
         self.protocol.validate()?;
         if matches!(self.protocol.preparation, Preparation::SideWalls(_)) {
             self.stack.refuse_spheres()?;

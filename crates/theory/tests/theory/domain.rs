@@ -5,7 +5,7 @@ use proptest::prelude::*;
 use tristack_theory::model::{Arms, ContactArms, ContactConvention, HistoryUpdate, Problem, Stack};
 use tristack_theory::theory::{
     LoadingOutcome, Predictions, closed_form_limit, critical_push, elastic_root, floor_slip_force,
-    followed_limit, pushed_slip_force, rigid_yield,
+    followed_limit, pushed_slip_force, quasistatic_limit, rigid_yield,
 };
 
 /// Values spread evenly over the logarithm.
@@ -140,5 +140,26 @@ fn formulas_of_a_stack_end_with_any_numbers() {
                 }
             }
         }
+    }
+}
+
+/// Theory takes stiffnesses beyond those of runs: below μ_c the force is the rigid one, to the order of ε, and above it
+/// grows as 1/ε, under every convention.
+#[test]
+fn the_stiffest_stacks_have_the_rigid_limit_and_its_exponent() {
+    let force = |friction, stiffness, convention| {
+        let problem = Problem::new(Stack::paper(friction, stiffness), convention).unwrap();
+        quasistatic_limit(&problem).yield_force.unwrap()
+    };
+    let rigid = rigid_yield(&Stack::paper(0.2, 1e4)).yield_force.unwrap();
+    for convention in [
+        ContactConvention::PAPER,
+        ContactConvention::TURNING,
+        ContactConvention::with_arms(Arms::reciprocal(-0.5, -1.0)),
+    ] {
+        // The rounding of an overlap ε beside coordinates of order 1 is 1e-16/ε of it.
+        assert!((force(0.2, 1e12, convention) - rigid).abs() < 1e-4 * rigid);
+        let slope = force(0.3, 1e12, convention) / force(0.3, 1e11, convention);
+        assert!((slope - 10.0).abs() < 1e-3, "{slope}");
     }
 }

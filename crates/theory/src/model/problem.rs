@@ -12,7 +12,7 @@ use super::{ContactConvention, InvalidValue, Stack};
 /// let problem = Problem::new(Stack::paper(0.3, 1e4), ContactConvention::PAPER)?;
 /// assert_eq!(problem.stack().floor_friction, 0.3);
 /// let refused = Problem::new(Stack::paper(0.3, -1.0), ContactConvention::PAPER).unwrap_err();
-/// assert_eq!(refused.to_string(), "`stack.stiffness` is -1, but must be a number from 1 to 1e12");
+/// assert_eq!(refused.to_string(), "`stack.stiffness` is -1, but must be a number from 1 to 1e16");
 /// # Ok::<(), tristack_theory::model::InvalidValue>(())
 /// ```
 ///
@@ -30,7 +30,7 @@ pub struct Problem {
 
 impl Problem {
     /// Checks every value of `stack` and of `convention`: frictions μ and μ_d above 0, at most 1000; stiffness 1/ε
-    /// from 1 to 10¹², of which a run takes 10⁸ ([`Stack::validate`]); stiffness ratio κ above 0, at most 10⁶; 2 to 5
+    /// from 1 to 10¹⁶, of which a run takes 10⁸ ([`Stack::validate`]); stiffness ratio κ above 0, at most 10⁶; 2 to 5
     /// bodies; arms from −1 to 1.
     ///
     /// # Errors

@@ -18,9 +18,9 @@ const LOWEST_STIFFNESS: f64 = 1.0;
 /// Highest stiffness 1/ε of a run.
 const HIGHEST_STIFFNESS: f64 = 1e8;
 
-/// Highest stiffness of theory: up to here followed paths approach the rigid limit and its exponents
-/// (crates/theory/tests/theory/domain.rs).
-pub(super) const HIGHEST_STIFFNESS_OF_THEORY: f64 = 1e12;
+/// Highest stiffness of theory, where forces still have the exponents and prefactors of stiff stacks to five digits
+/// (tests/physics/hertz/asymptotics.rs).
+pub(super) const HIGHEST_STIFFNESS_OF_THEORY: f64 = 1e16;
 
 /// Number n of bottom bodies in the paper's stack.
 pub const PAPER_BODIES: u8 = 2;

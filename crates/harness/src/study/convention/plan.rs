@@ -104,13 +104,11 @@ impl MicroTests {
         fine: &[Vec<ContactRow>],
         clock: &Clock,
     ) -> Normal {
-        let (coarse, fine, mass) = (coarse.concat(), fine.concat(), clock.mass.value);
+        let (coarse, fine) = (coarse.concat(), fine.concat());
+        let mass = self.kind.effective_mass(clock.mass.value);
         match self.convention.law.is_linear() {
             true => Normal::Linear(LinearNormalLaw::read(&coarse, &fine, mass)),
-            false => {
-                let mass = self.kind.effective_mass(mass);
-                Normal::Power(NormalPowerLaw::read(&[coarse, fine].concat(), mass))
-            }
+            false => Normal::Power(NormalPowerLaw::read(&[coarse, fine].concat(), mass)),
         }
     }
 

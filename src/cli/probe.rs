@@ -10,7 +10,7 @@ use crate::output::{json, passport_json, passport_markdown, probe, probe_by_code
 use crate::runs::SelectedCode;
 use crate::study::Verdict;
 use crate::study::atlas::NamedPassport;
-use crate::study::convention::{Finding, Passport, Probed, passport, probe_all};
+use crate::study::convention::{Finding, Passport, Probed, passport, probe_all, step_effects};
 use clap::Args;
 use std::path::{Path, PathBuf};
 
@@ -128,11 +128,18 @@ fn conclude(codes: &[SelectedCode], probed: &[Probed], findings: &[Finding]) -> 
             tell!("{name}: its motions are printed with {digits} digits, too few to contradict it");
         }
     }
+    for (selected, result) in codes.iter().zip(probed) {
+        let findings = result.iter().flat_map(|probe| &probe.findings);
+        if let Some(effects) = step_effects(findings) {
+            tell!("{}: {effects}", selected.name);
+        }
+    }
     for finding in findings {
+        let of_surface = finding.time_step_effect();
         for remark in finding
             .growth()
             .into_iter()
-            .chain(finding.time_step_effect())
+            .chain(of_surface.filter(|_| finding.step_effect.is_none()))
             .chain(finding.energy_made())
         {
             tell!("{}: {remark}", finding.code);

@@ -11,4 +11,5 @@ mod lies;
 mod live;
 mod mutations;
 mod probe_laws;
+mod schemes;
 mod twins;

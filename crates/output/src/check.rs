@@ -35,16 +35,18 @@ pub fn check_text(report: &Report) -> String {
             text += &format!("{}\n", title(item.grade));
         }
         text += &format!("  {:<10} {}", word(item.outcome), item.name);
-        if item.outcome != Outcome::Failed {
-            text += &format!(": {}\n", item.found);
+        text += &match item.outcome {
+            Outcome::Failed => format!(
+                "\n      expected: {}\n      found:    {}\n",
+                item.expected,
+                indented(&item.found)
+            ),
+            _ => format!(": {}\n", item.found),
+        };
+        if item.causes.is_empty() {
             continue;
         }
-        text += &format!(
-            "\n      expected: {}\n      found:    {}\n",
-            item.expected,
-            indented(&item.found)
-        );
-        if item.causes == told && !told.is_empty() {
+        if item.causes == told {
             text += "      fits:     the same as above\n";
             continue;
         }

@@ -19,11 +19,14 @@ pub fn probe(findings: &[Finding]) -> DataTable<'_> {
     .text("property", |own| own.property.clone())
     .means("name of the property")
     .number("measured", "1", |own| own.measured)
-    .means("what was measured; absent if it could not be")
+    .means("what was measured, at vanishing time step if it depends on the step; absent if it could not be")
     .number("uncertainty", "1", |own| own.uncertainty)
-    .means("three standard errors; absent with the measured value")
+    .means("three standard errors, or those of the extrapolation; absent with the measured value")
     .number("declared", "1", |own| own.declared)
-    .means("what the code declares; absent where it leaves that out and the measured value is used")
+    .means(
+        "what the code declares; absent where it leaves that out and the measured value is used, and where the property \
+         has an effect that vanishes with the time step",
+    )
     .verdict(|own| own.verdict)
     .rows(findings)
 }

@@ -1,10 +1,10 @@
 //! Plans of the runs of a code that are made elsewhere, in rounds where later runs depend on earlier results.
 
-use super::convention::{ROUNDS, probe, settled_by_files};
+use super::convention::{ROUNDS, converged, settled_by_files};
 use super::yield_force::{Measurement, Method, planned};
 use crate::code::{Code, FailureKind, PlannedRun, PreparedRun, ResultFiles, SettledCode, TaskKind};
 use crate::files::{FileError, Links, parse_json, read_bounded};
-use crate::model::{InvalidValue, Stack, exact};
+use crate::model::{ContactTest, InvalidValue, Stack, exact};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
 use std::io::ErrorKind;
@@ -190,14 +190,15 @@ impl PlannedRow {
 }
 
 /// The micro-tests of all rounds that can be planned already, and whether further rounds follow: the results of a
-/// round determine the tests of the next.
+/// round determine the tests of the next. Those of the last round with one time step may show that shorter ones are
+/// needed.
 fn micro_tests(code: &Code, root: &Path) -> Result<(Vec<PreparedRun>, bool), InvalidValue> {
     if code.check_task(TaskKind::Motion).is_err() {
         return Ok((Vec::new(), false));
     }
     let mut planned = Vec::new();
-    let mut round = 0;
-    let probed = probe(&code.declaration(), |tests| {
+    let mut round: usize = 0;
+    let run = |tests: &[ContactTest]| {
         round += 1;
         let mut motions = Vec::new();
         for (index, test) in (1..).zip(tests) {
@@ -208,10 +209,10 @@ fn micro_tests(code: &Code, root: &Path) -> Result<(Vec<PreparedRun>, bool), Inv
         }
         let motions: Result<_, _> = motions.into_iter().collect();
         motions.map_err(|_| None)
-    });
-    match probed {
+    };
+    match converged(&code.declaration(), run, |_| false) {
         Err(Some(refusal)) => Err(refusal),
-        Err(None) => Ok((planned, round < ROUNDS)),
+        Err(None) => Ok((planned, !round.is_multiple_of(ROUNDS))),
         Ok(_) => Ok((planned, false)),
     }
 }

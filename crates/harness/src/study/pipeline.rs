@@ -2,7 +2,7 @@
 
 use super::convention::{
     Probed, arms_are_measured, contradictions, is_contradicted, other_program, probe_all,
-    settled_by,
+    settled_by, step_effects,
 };
 use super::verdict::{Ground, Grounds, Verdict};
 use crate::code::{Code, Identity, InstalledCode, SettledCode, Unknown};
@@ -330,6 +330,11 @@ impl Grounds {
         let mut contradictions = contradictions(probed);
         contradictions.extend(other_program(probed, identities.iter()));
         let Some(first) = contradictions.first() else {
+            let findings = probed.iter().flat_map(|probe| &probe.findings);
+            let effects = step_effects(findings);
+            effects
+                .into_iter()
+                .for_each(|told| self.add(Ground::Remark(told)));
             return;
         };
         let further = match contradictions.len() {

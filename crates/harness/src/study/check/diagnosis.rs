@@ -39,7 +39,7 @@ pub(super) fn items(series: &Series, case: &Case, micro: Option<&Micro>) -> Vec<
     let mut items = stack::items(series, case, &known.stacks);
     items.extend(of_micro);
     items.extend(known.item());
-    if !items.iter().any(|item| item.outcome == Outcome::Failed) {
+    if !items.iter().any(is_to_be_explained) {
         return items;
     }
     let found = conventions
@@ -64,10 +64,15 @@ pub(super) fn items(series: &Series, case: &Case, micro: Option<&Micro>) -> Vec<
         false => (Vec::new(), false),
     };
     let plain = at_first_sight(series, &case.stack).filter(|_| !is_known);
-    for item in items
-        .iter_mut()
-        .filter(|item| item.outcome == Outcome::Failed)
-    {
+    for item in items.iter_mut().filter(|item| is_to_be_explained(item)) {
+        if micro::is_step_effect(item) {
+            // What vanishes with the time step needs no place, but a name if there is one.
+            item.causes = match causes.is_empty() && is_known {
+                true => located.clone(),
+                false => causes.clone(),
+            };
+            continue;
+        }
         // If the mistake is found under the declared convention, the declaration may be right. Otherwise it may be
         // wrong as well, and keeps its own causes.
         let is_declaration = item.name == micro::DECLARATION && (place > 0 || causes.is_empty());
@@ -82,6 +87,11 @@ pub(super) fn items(series: &Series, case: &Case, micro: Option<&Micro>) -> Vec<
         }
     }
     items
+}
+
+/// Whether an item failed, or says that something vanishes with the time step.
+fn is_to_be_explained(item: &Item) -> bool {
+    item.outcome == Outcome::Failed || micro::is_step_effect(item)
 }
 
 fn items_of(micro: Option<&Micro>) -> Vec<Item> {
@@ -176,8 +186,7 @@ impl Known {
             .filter(|own| own.before < SAME_MOTION)
             .count();
         let is_exact = exact >= MANY_EXACT;
-        let is_failed = |item: &Item| item.outcome == Outcome::Failed;
-        let is_wrong = micro.is_some_and(|micro| micro.items().iter().any(is_failed));
+        let is_wrong = micro.is_some_and(|micro| micro.items().iter().any(is_to_be_explained));
         let mut stacks = vec![Evidence::of_stack(series, case, convention, false)];
         if is_exact {
             stacks.push(Evidence::of_stack(series, case, convention, true));

@@ -158,6 +158,7 @@ mod tests {
             measured,
             uncertainty: Some(1e-9),
             declared: Some(1.0),
+            step_effect: None,
             verdict: Verdict::Agrees,
         };
         let item = turned(&[finding(Some(1.0))]).expect("it is said");

@@ -3,12 +3,15 @@
 
 use super::factor::{is_about, of_friction};
 use super::reaction::action_and_reaction;
-use super::report::{Grade, Item};
+use super::report::{Grade, Item, Outcome};
 use super::table::meanings;
 use crate::code::{Code, ConventionKey};
 use crate::model::ContactConvention;
 use crate::runs::{Answer, ProbeRecord};
-use crate::study::convention::{Finding, Findings, TOLERANCE, read_probe};
+use crate::study::convention::{
+    DAMPING_VELOCITY_LAG, Finding, Findings, OVERLAP_LEAD, TOLERANCE, probe, read_probe,
+    step_effects,
+};
 
 /// Largest relative deviation of numbers that have few digits.
 const GROSS: f64 = 1e-2;
@@ -25,11 +28,18 @@ const PARAMETERS: [(&str, &[&str]); 7] = [
     ("friction", &["friction"]),
     ("force of the top wall", &["reported_force"]),
 ];
-const MOMENTS: [&str; 2] = ["overlap_lead", "damping_velocity_lag"];
+const MOMENTS: [&str; 2] = [OVERLAP_LEAD, DAMPING_VELOCITY_LAG];
 const MOMENTS_NAME: &str = "forces and positions of one moment";
 
 /// The item on the declared convention.
 pub(super) const DECLARATION: &str = "declared convention";
+
+/// Whether `item` says of parameters that they are as asked at vanishing time step alone.
+pub(super) fn is_step_effect(item: &Item) -> bool {
+    let mut names = PARAMETERS.iter().map(|(name, _)| *name);
+    item.outcome == Outcome::Remark
+        && (item.name == MOMENTS_NAME || names.any(|own| own == item.name))
+}
 
 /// What the micro-tests show of a code.
 pub(super) struct Micro {
@@ -42,9 +52,16 @@ impl Micro {
     /// Reads the answers of `code`; `None` if they do not answer the present micro-tests.
     pub fn of(code: &Code, record: ProbeRecord) -> Option<Self> {
         let reaction = action_and_reaction(&record);
-        // Micro-tests in space have their own equations, in the probe.
-        let in_the_plane = |answer: &&Answer| answer.test.space.is_none();
-        let answers = record.answers.iter().filter(in_the_plane);
+        let mut first = Vec::new();
+        let asked = probe(&code.declaration(), |tests| {
+            first.extend_from_slice(tests);
+            record.answer(tests).ok_or(())
+        });
+        asked.ok()?;
+        // Micro-tests in space have their own equations, in the probe, and shorter steps show nothing new.
+        let is_read =
+            |answer: &&Answer| answer.test.space.is_none() && first.contains(&answer.test);
+        let answers = record.answers.iter().filter(is_read);
         let answers = answers.cloned().collect();
         let findings = read_probe(code, record).ok()?;
         Some(Self {
@@ -85,6 +102,10 @@ impl Micro {
         let (wrong, right): (Vec<&Finding>, Vec<&Finding>) =
             own.partition(|own| self.deviates(own));
         if wrong.is_empty() {
+            let effects = step_effects(right.iter().copied());
+            if let Some(effects) = effects {
+                return Item::remark(Grade::Consistency, name, effects);
+            }
             return match right.iter().any(|own| own.measured.is_some()) {
                 true => Item::passed(Grade::Consistency, name, "as asked"),
                 false => {

@@ -41,7 +41,7 @@ pub struct Item {
     pub expected: String,
     /// What was found.
     pub found: String,
-    /// Mistakes that fit what was found, or the usual ones; empty unless it failed.
+    /// Mistakes that fit what was found, or the usual ones; empty unless it failed or vanishes with the time step.
     pub causes: Vec<String>,
 }
 

@@ -16,15 +16,18 @@ pub struct Clock {
     /// Steps by which the reported velocities lag behind the reported positions: 1/2 in a leapfrog, 0 in
     /// velocity Verlet.
     pub velocity_lag: Measured,
+    /// Motions are cut off after multiples of this many steps.
+    pub grain: u64,
 }
 
 impl Clock {
-    /// Fits the motions of all bodies that feel a force.
+    /// Fits the motions of all bodies that feel a force, of motions that are cut off after multiples of `grain`
+    /// steps.
     ///
     /// With the velocities v_{n−1/2} = (x_n − x_{n−1})/dt, mass and lag s follow from
     /// F_n dt = m (v_{n+1/2} − v_{n−1/2}) and v_n = v_{n−1/2} + (1/2 − s)(v_{n+1/2} − v_{n−1/2}); the inertia
     /// from ω_{n+1} − ω_n = dt [(1/2 + s) M_n + (1/2 − s) M_{n+1}]/I.
-    pub fn read(motions: &[(&ContactTest, &Motion)]) -> Self {
+    pub fn read(motions: &[(&ContactTest, &Motion)], grain: u64) -> Self {
         let bodies: Vec<(f64, Vec<BodyRow>)> = motions
             .iter()
             .flat_map(|(test, motion)| {
@@ -64,6 +67,7 @@ impl Clock {
             mass: inverse_mass.inverse(),
             moment_of_inertia: inverse_inertia.inverse(),
             velocity_lag,
+            grain,
         }
     }
 

@@ -34,6 +34,8 @@ pub struct ContactRow {
     pub wall_force: f64,
     pub time_step: f64,
     pub friction: f64,
+    /// Whether a motion may be cut off after it.
+    pub may_be_last: bool,
 }
 
 impl ContactRow {
@@ -79,6 +81,15 @@ pub fn contact_rows(
     .collect()
 }
 
+/// The first rows, as long as they are `wanted`; if there are others, to the last row where motions may be cut off.
+pub fn as_long_as(rows: &[ContactRow], wanted: impl Fn(&ContactRow) -> bool) -> &[ContactRow] {
+    let Some(end) = rows.iter().position(|row| !wanted(row)) else {
+        return rows;
+    };
+    let last = rows[..end].iter().rposition(|row| row.may_be_last);
+    &rows[..last.map_or(0, |last| last + 1)]
+}
+
 fn contact_row(
     kind: ContactKind,
     test: &ContactTest,
@@ -122,5 +133,6 @@ fn contact_row(
         wall_force: row.wall_force,
         time_step: dt,
         friction: kind.friction(test),
+        may_be_last: row.step.is_multiple_of(clock.grain),
     }
 }

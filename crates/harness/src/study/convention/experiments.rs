@@ -184,6 +184,19 @@ pub fn common(kind: ContactKind, convention: &ContactConvention) -> Vec<ContactT
     starts.map(|start| test(kind, convention, start)).collect()
 }
 
+/// `test` with its time step divided by `divisor`.
+pub fn refined(test: &ContactTest, divisor: u64) -> ContactTest {
+    ContactTest {
+        time_step: test.time_step / divisor as f64,
+        steps: test.steps * divisor,
+        drive: test.drive.map(|drive| Drive {
+            leg_steps: drive.leg_steps * divisor,
+            ..drive
+        }),
+        ..*test
+    }
+}
+
 /// A spin that brings the contact to Coulomb's limit within a few steps, if it is fast enough.
 pub fn near_slip(kind: ContactKind, convention: &ContactConvention, spin: f64) -> ContactTest {
     let start = Start {

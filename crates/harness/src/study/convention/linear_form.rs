@@ -1,7 +1,7 @@
 //! The linear form in which the law of a sticking contact is fitted to its rows.
 
 use super::beside::fit_beside;
-use super::contact_frame::ContactRow;
+use super::contact_frame::{ContactRow, as_long_as};
 use super::regression::{Measured, deviations, fit_rows};
 use super::shape::{Growth, Memory};
 
@@ -244,12 +244,6 @@ pub fn sticking(rows: &[ContactRow]) -> &[ContactRow] {
         let limit = row.friction * row.normal_force;
         row.tangential_force.abs() < CERTAINLY_STICKING * limit
     })
-}
-
-/// The first rows, as long as they are `wanted`.
-pub fn as_long_as(rows: &[ContactRow], wanted: impl Fn(&ContactRow) -> bool) -> &[ContactRow] {
-    let end = rows.iter().position(|row| !wanted(row));
-    &rows[..end.unwrap_or(rows.len())]
 }
 
 /// sin dψ of the step that leads to a row.

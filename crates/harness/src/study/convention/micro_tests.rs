@@ -1,12 +1,14 @@
-//! The micro-tests of a code in the schedule: both rounds of a probe are one task.
+//! The micro-tests of a code in the schedule: all rounds of a probe are one task.
 
-use super::probe::probe;
+use super::convergence::converged;
 use crate::code::{Code, Failure, Finished, Identity, InstalledCode};
 use crate::code::{Provenance, RunContext};
 use crate::files::FileError;
 use crate::model::{ContactTest, sha256_hex};
 use crate::runs::{Answer, Kind, ProbeRecord, Progress, Reading, Recorded};
 use crate::runs::{RecordedError, ScheduledTask, Store, probe_address};
+use crate::series::Motion;
+use std::path::Path;
 use std::time::Instant;
 
 /// All micro-tests that measure the convention of a code.
@@ -106,10 +108,10 @@ fn is_current(record: &ProbeRecord, name: &Code) -> bool {
         return false;
     }
     let answered = |tests: &[ContactTest]| record.answer(tests).ok_or(());
-    probe(&name.declaration(), answered).is_ok()
+    converged(&name.declaration(), answered, |_| false).is_ok()
 }
 
-/// Carries out the micro-tests with `code`, each round in a directory of its own.
+/// Carries out the micro-tests with `code`, at as many time steps as it takes, each round in a directory of its own.
 pub(crate) fn ask(
     code: &dyn InstalledCode,
     context: &RunContext,
@@ -118,31 +120,30 @@ pub(crate) fn ask(
     let name = code.name();
     let mut answers: Vec<Answer> = Vec::new();
     let mut round = 0;
-    probe(&name.declaration(), |tests| {
+    let run = |tests: &[ContactTest]| {
         round += 1;
         let place = context.directory.join(format!("round-{round}"));
-        let context = RunContext {
-            time_limit: context.time_limit,
-            ..RunContext::new(&place, context.interrupt)
+        let known = |test: &ContactTest, answers: &[Answer]| {
+            let own = answers.iter().find(|own| own.test == *test);
+            own.map(|own| own.motion.clone())
         };
-        // Each kind has a deck of its own.
-        let (in_the_plane, in_space) =
-            tests.split_at(tests.partition_point(|test| test.space.is_none()));
-        let mut motions = code.probe(in_the_plane, &context)?;
-        if !in_space.is_empty() {
-            let place = place.join("in-space");
-            let context = RunContext {
-                time_limit: context.time_limit,
-                ..RunContext::new(&place, context.interrupt)
-            };
-            motions.extend(code.probe(in_space, &context)?);
-        }
-        answers.extend(tests.iter().zip(&motions).map(|(test, motion)| Answer {
+        // A test with two time steps is the same as another one with one.
+        let unknown = tests.iter().filter(|test| known(test, &answers).is_none());
+        let unknown: Vec<ContactTest> = unknown.copied().collect();
+        let motions = carry_out(code, &unknown, &place, context)?;
+        let made = unknown.iter().zip(motions).map(|(test, motion)| Answer {
             test: *test,
             input_hash: name.deck_hash(test),
-            motion: motion.clone(),
-        }));
-        Ok::<_, Box<Failure>>(motions)
+            motion,
+        });
+        answers.extend(made);
+        let motions = tests.iter().filter_map(|test| known(test, &answers));
+        Ok::<_, Box<Failure>>(motions.collect())
+    };
+    // What a code has answered is not lost if it fails at shorter steps, and files that were made elsewhere may answer
+    // the first micro-tests alone.
+    converged(&name.declaration(), run, |failure| {
+        !failure.is_interrupted()
     })?;
     let command = vec!["tristack".to_owned(), "probe".to_owned()];
     let steps = answers.iter().map(|answer| answer.test.steps).sum();
@@ -153,4 +154,27 @@ pub(crate) fn ask(
         provenance: Provenance::now(code.identity().clone(), hash, command, steps, seconds),
         answers,
     })
+}
+
+/// Carries out `tests` at a `place`; those in the plane come first, since each kind has a deck of its own.
+fn carry_out(
+    code: &dyn InstalledCode,
+    tests: &[ContactTest],
+    place: &Path,
+    context: &RunContext,
+) -> Result<Vec<Motion>, Box<Failure>> {
+    let (in_the_plane, in_space) =
+        tests.split_at(tests.partition_point(|test| test.space.is_none()));
+    let in_space_too = place.join("in-space");
+    let mut motions = Vec::new();
+    for (tests, place) in [(in_the_plane, place), (in_space, &in_space_too)] {
+        if !tests.is_empty() {
+            let context = RunContext {
+                time_limit: context.time_limit,
+                ..RunContext::new(place, context.interrupt)
+            };
+            motions.extend(code.probe(tests, &context)?);
+        }
+    }
+    Ok(motions)
 }

@@ -2,11 +2,12 @@
 //!
 //! The declaration of the code serves for comparison alone. Mass, inertia and the times of velocities follow from free
 //! motion; stiffness, damping and arms from linear regression of the reported forces on the reported motion. If the law
-//! is right, only rounding remains.
+//! is right, only rounding remains, or what vanishes with the time step.
 
 mod beside;
 mod clock;
 mod contact_frame;
+mod convergence;
 mod cycle;
 mod experiments;
 mod finding;
@@ -31,7 +32,9 @@ mod space;
 mod spring_shape;
 mod tangential;
 
-pub use finding::{Finding, TOLERANCE};
+pub(crate) use convergence::converged;
+pub(crate) use finding::{DAMPING_VELOCITY_LAG, OVERLAP_LEAD};
+pub use finding::{Finding, StepEffect, TOLERANCE, step_effects};
 pub use measured::{
     Findings, ProbeError, Probed, contradictions, probe_all, probe_records, read_probe,
 };

@@ -11,18 +11,32 @@ use crate::code::Declaration;
 use crate::model::ContactTest;
 use crate::series::Motion;
 
+/// Beginning of the names of properties of spheres, after the kind of contact.
+const IN_SPACE: &str = "space_";
+
 const CONTACT_KINDS: [ContactKind; 3] = [ContactKind::Pair, ContactKind::Floor, ContactKind::Wall];
 
 /// Number of rounds of micro-tests: the speed at which a contact reaches the slip threshold must be measured first.
 pub const ROUNDS: usize = 2;
 
-/// Measures every property of the contacts of a code, and pairs it with what is `declared` of it. `run` carries out
-/// micro-tests; it is called `ROUNDS` times.
+/// Measures every property of the contacts of a code at the time step of the micro-tests, and pairs it with what is
+/// `declared` of it. `run` carries out micro-tests; it is called `ROUNDS` times.
 ///
 /// # Errors
 /// Those of `run`.
 pub fn probe<E>(
     declared: &Declaration,
+    run: impl FnMut(&[ContactTest]) -> Result<Vec<Motion>, E>,
+) -> Result<Vec<Property>, E> {
+    measure(declared, 1, 1, run).map(without_consequences)
+}
+
+/// Measures all properties by micro-tests whose time steps are divided by `divisor`. Motions are cut off after multiples
+/// of `grain` of their steps.
+pub(super) fn measure<E>(
+    declared: &Declaration,
+    divisor: u64,
+    grain: u64,
     mut run: impl FnMut(&[ContactTest]) -> Result<Vec<Motion>, E>,
 ) -> Result<Vec<Property>, E> {
     let convention = &declared.convention;
@@ -36,11 +50,18 @@ pub fn probe<E>(
     if declared.in_space {
         tests.extend(space::tests(convention));
     }
+    let refined = |tests: Vec<ContactTest>| -> Vec<ContactTest> {
+        let tests = tests.iter();
+        tests
+            .map(|test| experiments::refined(test, divisor))
+            .collect()
+    };
+    let tests = refined(tests);
     let motions = run(&tests)?;
     let outcomes: Vec<TestedMotion> = tests.iter().zip(&motions).collect();
     let (outcomes, of_spheres) = outcomes.split_at(in_the_plane);
     let (outcomes, driven) = outcomes.split_at(free);
-    let clock = Clock::read(outcomes);
+    let clock = Clock::read(outcomes, grain);
     let turning = outcomes.last().map_or_else(Vec::new, |(test, motion)| {
         contact_rows(ContactKind::Pair, test, motion, &clock)
     });
@@ -59,7 +80,7 @@ pub fn probe<E>(
     let cycles = cycle::properties(driven, &clock, |kind| of(kind).map(Laws::tangential));
     let floor_ratio = floor_ratio(of, declared);
     let near_slip: Vec<Vec<ContactTest>> = laws.iter().map(Laws::threshold_tests).collect();
-    let tests = near_slip.concat();
+    let tests = refined(near_slip.concat());
     let motions = run(&tests)?;
     let outcomes: Vec<TestedMotion> = tests.iter().zip(&motions).collect();
     let mut unread = outcomes.as_slice();
@@ -70,21 +91,39 @@ pub fn probe<E>(
         properties.extend(laws.properties(own, &clock));
     }
     properties.extend(floor_ratio.into_iter().chain(cycles));
-    // The tests in space take the law as declared. If it is another one, all deviations there would follow from that.
-    let in_space = in_space.into_iter().filter(|own| {
-        let kind = CONTACT_KINDS
-            .iter()
-            .find(|kind| own.name.starts_with(kind.as_str()));
-        kind.is_none_or(|kind| {
-            let of_kind = |other: &&Property| other.name.starts_with(kind.as_str());
-            !properties.iter().filter(of_kind).any(Property::differs)
-        })
-    });
-    let in_space: Vec<Property> = in_space.collect();
     properties.extend(in_space);
     let properties = properties.into_iter();
     let properties = properties.map(|own| own.unless_left_out(&declared.left_out));
     Ok(properties.collect())
+}
+
+/// `properties` without those in space of contacts whose law differs from the declared one. The tests in space take the
+/// law as declared, so that all deviations there would follow from that.
+pub(super) fn without_consequences(properties: Vec<Property>) -> Vec<Property> {
+    let differs = CONTACT_KINDS.map(|kind| {
+        let mut own = properties
+            .iter()
+            .filter(|own| is_of(kind, own) && !is_in_space(own));
+        own.any(Property::differs)
+    });
+    let follows = |own: &Property| {
+        let mut kinds = CONTACT_KINDS.into_iter().zip(differs);
+        is_in_space(own) && kinds.any(|(kind, differs)| differs && is_of(kind, own))
+    };
+    properties.into_iter().filter(|own| !follows(own)).collect()
+}
+
+/// Whether it is a property of a contact of spheres.
+fn is_in_space(own: &Property) -> bool {
+    let mut kinds = CONTACT_KINDS.into_iter();
+    kinds.any(|kind| {
+        own.name
+            .starts_with(&format!("{}_{IN_SPACE}", kind.as_str()))
+    })
+}
+
+fn is_of(kind: ContactKind, own: &Property) -> bool {
+    own.name.starts_with(kind.as_str())
 }
 
 /// K of the floor over K of pairs, where the law is any power.

@@ -1,7 +1,9 @@
 //! Every measured property beside the declared one.
 
 use super::experiments::ContactKind;
-use super::finding::{CUBED_TURN, EXPONENT, Property, TOLERANCE};
+use super::finding::{
+    CUBED_TURN, DAMPING_VELOCITY_LAG, EXPONENT, HISTORY_UPDATE, OVERLAP_LEAD, Property, TOLERANCE,
+};
 use super::finding::{
     FORCE_EXPONENT, NORMAL_DAMPING_EXPONENT, TANGENTIAL_DAMPING_EXPONENT, TANGENTIAL_EXPONENT,
 };
@@ -67,8 +69,8 @@ pub fn normal_properties(
     let rows = [
         ("normal_stiffness", law.stiffness, declared.normal_stiffness),
         ("normal_damping", law.damping, declared.damping_normal),
-        ("overlap_lead", law.overlap_lead, 0.0),
-        ("damping_velocity_lag", law.velocity_lag, 0.5),
+        (OVERLAP_LEAD, law.overlap_lead, 0.0),
+        (DAMPING_VELOCITY_LAG, law.velocity_lag, 0.5),
         ("pull", pull, pulls),
     ];
     at(kind, rows)
@@ -101,8 +103,8 @@ pub fn power_properties(
         ..Property::at(kind, "normal_stiffness", law.stiffness, stiffness)
     };
     let after = [
-        ("overlap_lead", law.overlap_lead, 0.0),
-        ("damping_velocity_lag", law.velocity_lag, 0.5),
+        (OVERLAP_LEAD, law.overlap_lead, 0.0),
+        (DAMPING_VELOCITY_LAG, law.velocity_lag, 0.5),
         ("pull", pull, pulls),
     ];
     let before = [exponent, stiffness].into_iter();
@@ -189,7 +191,7 @@ pub fn tangential_properties(
         true => shown(&HISTORY_UPDATES, &HistoryUpdate::Projected),
         false => shown(&HISTORY_UPDATES, &convention.history_update),
     };
-    let turns = (kind == ContactKind::Pair).then_some(("history_update", law.transport, update));
+    let turns = (kind == ContactKind::Pair).then_some((HISTORY_UPDATE, law.transport, update));
     let none = is_fixed.then(|| match law.transport.uncertainty.is_finite() {
         true => Measured::new(0.0, 0.0),
         false => Measured::UNKNOWN,

@@ -186,9 +186,8 @@ mod tests {
 
     fn property(name: &str, value: f64, uncertainty: f64) -> Property {
         Property {
-            name: name.to_owned(),
-            measured: Measured::new(value, uncertainty),
             declared: None,
+            ..Property::new(name, Measured::new(value, uncertainty), 0.0)
         }
     }
 

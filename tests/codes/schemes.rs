@@ -1,0 +1,125 @@
+//! Codes whose scheme is not that of the example, but converges: copies of the Python example.
+
+use crate::common::{Bench, code_folder, json_rows};
+use serde::Deserialize;
+use serde_json::Value;
+use std::fs;
+
+/// Numbers of the copies in schemes.toml.
+const TEXTBOOK_VERLET: usize = 0;
+const STEPS_INSIDE: usize = 1;
+const EULER: usize = 2;
+const LATE: usize = 3;
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Scheme {
+    name: String,
+    /// What is replaced in mydem.py, and by what.
+    change: Vec<[String; 2]>,
+    /// Words with which `check` names it.
+    words: Vec<String>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Schemes {
+    scheme: Vec<Scheme>,
+}
+
+fn scheme(index: usize) -> Scheme {
+    let schemes: Schemes = toml::from_str(include_str!("schemes.toml")).expect("a table");
+    schemes.scheme.into_iter().nth(index).expect("a scheme")
+}
+
+/// A bench with the scheme as `mydem`, after further changes, and without a declared convention.
+fn bench(scheme: &Scheme, further: &[[&str; 2]]) -> Bench {
+    let bench = Bench::with_system_programs();
+    let undeclared = |manifest: String| {
+        let convention = manifest.find("[convention]").expect("a convention");
+        manifest[..convention].to_owned() + "[convention]\n"
+    };
+    let folder = code_folder("examples/python", &bench.path("mydem"), undeclared);
+    let script = folder.join("mydem.py");
+    let mut text = fs::read_to_string(&script).expect("a script");
+    let own = scheme.change.iter().map(|[from, to]| [from.as_str(), to]);
+    for [from, to] in own.chain(further.iter().copied()) {
+        assert!(text.contains(from), "{from}");
+        text = text.replace(from, to);
+    }
+    fs::write(script, text).expect("it can be written");
+    bench
+}
+
+/// Exit status, rows and messages of a command with the code.
+fn rows(bench: &Bench, line: &str) -> (i32, Vec<Value>, String) {
+    let output = bench.tristack(line).output().expect("it runs");
+    let status = output.status.code().expect("it ends by itself");
+    let [text, messages] = [output.stdout, output.stderr].map(|text| {
+        let text = String::from_utf8(text);
+        text.expect("text")
+    });
+    (status, json_rows(&text), messages)
+}
+
+const CROSSCHECK: &str = "crosscheck --codes ./mydem --mu 0.3 --stiffness 100 --format json";
+
+fn agrees(index: usize) {
+    let scheme = scheme(index);
+    let (status, rows, notes) = rows(&bench(&scheme, &[]), CROSSCHECK);
+    assert_eq!((status, rows.len()), (0, 1), "{}: {notes}", scheme.name);
+    assert_eq!(rows[0]["verdict"], "agrees");
+    assert!(notes.contains("(order 1)"), "{notes}");
+}
+
+#[test]
+fn textbook_verlet_agrees_with_a_remark() {
+    agrees(TEXTBOOK_VERLET);
+}
+
+#[test]
+fn steps_inside_steps_agree_with_a_remark() {
+    agrees(STEPS_INSIDE);
+}
+
+#[test]
+fn a_mistake_of_a_ten_thousandth_is_found_beside_errors_of_first_order() {
+    let stiffer = [
+        "task[\"tangential_stiffness\"]",
+        "1.0001 * task[\"tangential_stiffness\"]",
+    ];
+    let (status, rows, notes) = rows(&bench(&scheme(TEXTBOOK_VERLET), &[stiffer]), CROSSCHECK);
+    assert_eq!((status, rows.len()), (2, 1), "{notes}");
+    assert!(notes.contains("tangential_stiffness is 2.0002"), "{notes}");
+}
+
+/// `check` names the scheme, by what vanishes with the time step or by what it does to the stack.
+fn is_named(index: usize, status: i32) {
+    let scheme = scheme(index);
+    let (found, items, _) = rows(&bench(&scheme, &[]), "check ./mydem --format json");
+    assert_eq!(found, status, "{}: {items:#?}", scheme.name);
+    let texts = items
+        .iter()
+        .map(|item| format!("{} {}", item["found"], item["causes"]));
+    let told: String = texts.collect();
+    for word in &scheme.words {
+        assert!(told.contains(word.as_str()), "{}: {items:#?}", scheme.name);
+    }
+}
+
+#[test]
+fn check_names_textbook_verlet_in_remarks_alone() {
+    is_named(TEXTBOOK_VERLET, 0);
+}
+
+/// No property of the others differs either.
+#[test]
+fn check_names_explicit_euler_and_forces_of_the_step_before() {
+    for index in [EULER, LATE] {
+        is_named(index, 2);
+        let line = "probe --codes ./mydem --format json";
+        let (_, findings, _) = rows(&bench(&scheme(index), &[]), line);
+        let differing = findings.iter().filter(|own| own["verdict"] == "differs");
+        assert_eq!(differing.collect::<Vec<_>>(), Vec::<&Value>::new());
+    }
+}

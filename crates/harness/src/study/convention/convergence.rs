@@ -16,7 +16,7 @@ use crate::series::{ENOUGH_DIGITS, Motion};
 const DIVISORS: [u64; 9] = [1, 2, 3, 4, 6, 8, 12, 16, 24];
 
 /// Motions are cut off, where a contact begins to slide, after multiples of this many of the longest steps: at the same
-/// moment at every level, although its slides a little earlier or later there.
+/// moment at every level, although it slides a little earlier or later there.
 const GRAIN: u64 = 5;
 
 /// Number of levels from which on a further one must make some property better known.

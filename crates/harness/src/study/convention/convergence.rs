@@ -28,22 +28,23 @@ const BEYOND_DOUBT: f64 = 10.0;
 /// Largest value by any rule of what errors of first order hide.
 const LARGEST_HIDDEN: f64 = 1.0;
 
-/// Share of the uncertainty at the longest step, below which that was one of the scheme and not of rounding.
-const BETTER: f64 = 0.1;
+/// Share of a deviation at the longest step that is left of it at a shorter one, if it vanishes with the step: at half
+/// the step it is half of one of first order.
+const VANISHING: f64 = 0.75;
 
 /// Uncertainty of a time in units of the step, up to which it is the same at every step.
 const SMALL_EFFECT: f64 = 1e-2;
 
 /// Measures every property of the contacts of a code at vanishing time step, and pairs it with what is `declared` of
 /// it. `run` carries out micro-tests: those of the probe first, and where they contradict the declaration, the same
-/// with shorter steps. An error of the latter that `is_missing` ends the refinement.
+/// with shorter steps. An error of the latter that `ends_refinement` leaves what is known by then.
 ///
 /// # Errors
 /// Those of `run`.
 pub fn converged<E>(
     declared: &Declaration,
     mut run: impl FnMut(&[ContactTest]) -> Result<Vec<Motion>, E>,
-    is_missing: impl Fn(&E) -> bool,
+    ends_refinement: impl Fn(&E) -> bool,
 ) -> Result<Vec<Property>, E> {
     let mut digits = 0;
     let first = measure(declared, 1, 1, |tests| {
@@ -54,7 +55,7 @@ pub fn converged<E>(
             .fold(digits, u32::max);
         Ok(motions)
     })?;
-    let mut found = first;
+    let mut found = first.clone();
     let mut levels: Vec<Vec<Property>> = Vec::new();
     for divisor in DIVISORS {
         // Rounding to few digits does not vanish with the step.
@@ -63,13 +64,13 @@ pub fn converged<E>(
         }
         match measure(declared, divisor, GRAIN * divisor, &mut run) {
             Ok(level) => levels.push(level),
-            Err(error) if is_missing(&error) => break,
+            Err(error) if ends_refinement(&error) => break,
             Err(error) => return Err(error),
         }
         if levels.len() == 1 {
             continue;
         }
-        let finer = at_vanishing_step(&levels, extrapolated);
+        let finer = at_vanishing_step(&first, &levels, extrapolated);
         let has_gained = finer.iter().any(|own| gains(own, &found));
         found = finer;
         if levels.len() >= ENOUGH_LEVELS && !has_gained {
@@ -77,7 +78,7 @@ pub fn converged<E>(
         }
     }
     if levels.len() > 1 {
-        found = at_vanishing_step(&levels, at_zero);
+        found = at_vanishing_step(&first, &levels, at_zero);
     }
     Ok(without_consequences(found))
 }
@@ -89,10 +90,9 @@ fn is_open(own: &Property) -> bool {
         return false;
     };
     let Measured { value, uncertainty } = own.measured;
-    let (error, allowed) = ((value - declared).abs(), TOLERANCE * own.scale());
-    let agrees = error <= allowed && uncertainty <= allowed;
+    let error = (value - declared).abs();
     let is_known = own.is_extrapolated && error > BEYOND_DOUBT * uncertainty;
-    value.is_finite() && !agrees && !is_known
+    value.is_finite() && !own.agrees() && !is_known
 }
 
 /// Whether the uncertainty of an open property is less than half of what it was in the properties `before`.
@@ -102,15 +102,21 @@ fn gains(own: &Property, before: &[Property]) -> bool {
         && before.is_some_and(|before| own.measured.uncertainty < 0.5 * before.measured.uncertainty)
 }
 
-/// The properties at vanishing time step, from those of all levels, whose values have this `limit`.
-fn at_vanishing_step(levels: &[Vec<Property>], limit: fn(&[f64]) -> Measured) -> Vec<Property> {
-    let finest = levels.last().map_or(&[][..], Vec::as_slice);
-    let each = finest.iter().map(|own| {
-        let same =
-            |level: &Vec<Property>| level.iter().find(|other| other.name == own.name).cloned();
-        let alike: Vec<Property> = levels.iter().filter_map(same).collect();
+/// The properties at vanishing time step, from those of the probe and of all levels, whose values have this `limit`.
+fn at_vanishing_step(
+    first: &[Property],
+    levels: &[Vec<Property>],
+    limit: fn(&[f64]) -> Measured,
+) -> Vec<Property> {
+    let each = first.iter().map(|own| {
+        let same = |level: &Vec<Property>| {
+            let alike = level.iter().find(|other| other.name == own.name);
+            alike.map(|other| other.measured)
+        };
+        let alike: Vec<Measured> = levels.iter().filter_map(same).collect();
         match alike.len() == levels.len() {
-            true => of_all_levels(&alike, limit),
+            true => of_all_levels(own, &alike, limit),
+            // It is not seen at every level.
             false => own.clone(),
         }
     });
@@ -129,22 +135,28 @@ fn at_vanishing_step(levels: &[Vec<Property>], limit: fn(&[f64]) -> Measured) ->
     found
 }
 
-/// A property at vanishing time step, from the same one of every level.
-fn of_all_levels(alike: &[Property], limit: fn(&[f64]) -> Measured) -> Property {
-    let first = Property {
-        is_extrapolated: true,
-        ..alike[0].clone()
-    };
-    let values: Vec<f64> = alike.iter().map(|own| own.measured.value).collect();
+/// A property at vanishing time step, from that of the probe and the values of every level.
+fn of_all_levels(first: &Property, alike: &[Measured], limit: fn(&[f64]) -> Measured) -> Property {
+    let values: Vec<f64> = alike.iter().map(|own| own.value).collect();
     let (limit, at_step) = (limit(&values), first.measured.value);
     let allowed = TOLERANCE * first.scale();
+    let is_exact = first.measured.uncertainty <= allowed;
+    let of_scheme = vanishes(first.measured.uncertainty, alike);
+    // What the probe knows, and what is wrong with the law, no shorter step shows better.
+    if is_exact && first.agrees() || !is_exact && !of_scheme || !limit.value.is_finite() {
+        return first.clone();
+    }
+    let first = Property {
+        is_extrapolated: true,
+        ..first.clone()
+    };
+    let is_constant = (at_step - limit.value).abs() <= limit.uncertainty + allowed;
     let effect = StepEffect {
         at_step,
         uncertainty: first.measured.uncertainty,
         order: order(&values, limit),
     };
-    let is_constant = (at_step - limit.value).abs() <= limit.uncertainty + allowed;
-    if is_constant && first.measured.uncertainty <= allowed {
+    if is_constant && is_exact {
         return match first.is_time_in_steps() && first.differs() {
             // As many steps at every step: an effect of first order.
             true => Property {
@@ -155,14 +167,9 @@ fn of_all_levels(alike: &[Property], limit: fn(&[f64]) -> Measured) -> Property 
             false => first,
         };
     }
-    if !limit.value.is_finite() {
-        // It is not seen at every level.
-        return alike[alike.len() - 1].clone();
-    }
-    let is_better_known = limit.uncertainty < BETTER * first.measured.uncertainty;
     let found = Property {
         measured: limit,
-        step_effect: (!is_constant || is_better_known).then_some(effect),
+        step_effect: Some(effect),
         ..first
     };
     let is_time = found.is_time_in_steps() && found.differs();
@@ -173,6 +180,15 @@ fn of_all_levels(alike: &[Property], limit: fn(&[f64]) -> Measured) -> Property 
         },
         false => found,
     }
+}
+
+/// Whether an `uncertainty` at the longest step falls with the step by itself, not only because there are more rows: it
+/// comes from the scheme, and neither from another law nor from rounding.
+fn vanishes(uncertainty: f64, alike: &[Measured]) -> bool {
+    let finest = alike.iter().zip(DIVISORS).next_back();
+    finest.is_some_and(|(own, divisor)| {
+        own.uncertainty * (divisor as f64).sqrt() < VANISHING * uncertainty
+    })
 }
 
 /// The order in which `values` approach their `limit`, at the shortest steps at which that is seen.

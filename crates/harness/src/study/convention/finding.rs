@@ -270,6 +270,14 @@ impl Property {
             .is_some_and(|error| error.abs() > self.measured.uncertainty + TOLERANCE * self.scale())
     }
 
+    /// Whether the measured value is the declared one and known as well as an external code is held to.
+    pub fn agrees(&self) -> bool {
+        let Measured { value, uncertainty } = self.measured;
+        let allowed = TOLERANCE * self.scale();
+        let is_declared = |declared: f64| (value - declared).abs() <= allowed;
+        self.declared.is_some_and(is_declared) && uncertainty <= allowed
+    }
+
     /// What tolerances are relative to: the declared value, or 1 where that is 0.
     pub fn scale(&self) -> f64 {
         match self.declared.unwrap_or_default() {

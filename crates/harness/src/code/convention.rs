@@ -162,6 +162,9 @@ pub struct Settled {
     pub convention: ContactConvention,
     /// Steps by which reported velocities lag behind reported positions.
     pub velocity_lag: f64,
+    /// Steps by which the forces that move the bodies were found to lag behind the positions; 0 for a code that was not
+    /// probed.
+    pub force_lag: f64,
     /// Uncertainties of the arm coefficients: 0 for those that are declared.
     pub arm_uncertainty: Arms,
     /// Uncertainty of the moment of inertia: 0 if it is declared.
@@ -272,6 +275,7 @@ impl Declaration {
         Settled {
             convention: self.convention,
             velocity_lag: self.velocity_lag,
+            force_lag: 0.0,
             arm_uncertainty: Arms::PAPER,
             inertia_uncertainty: 0.0,
             lag_uncertainty: 0.0,

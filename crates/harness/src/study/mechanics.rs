@@ -14,8 +14,13 @@ impl Grounds {
             match mechanics {
                 Some(mechanics) => {
                     let violations = mechanics.violations();
-                    let notes = violations.map(|(law, deviation)| violation(run, law, deviation));
-                    notes.for_each(|note| self.add(Ground::Violation(note)));
+                    for (law, deviation) in violations {
+                        let note = violation(run, law, deviation);
+                        self.add(match deviation.is_of_late_forces {
+                            true => Ground::LateForces(note),
+                            false => Ground::Violation(note),
+                        });
+                    }
                 }
                 None => self.add(Ground::Doubt(format!(
                     "run {run} was recorded before series were held to mechanics"

@@ -1,8 +1,8 @@
 //! The pipeline of every study: plan runs, carry them out or take recorded ones, evaluate them, derive the verdict.
 
 use super::convention::{
-    Probed, arms_are_measured, contradictions, is_contradicted, other_program, probe_all,
-    settled_by, step_effects,
+    Probed, arms_are_measured, contradictions, forces_are_late, is_contradicted, other_program,
+    probe_all, settled_by, step_effects,
 };
 use super::verdict::{Ground, Grounds, Verdict};
 use crate::code::{Code, Identity, InstalledCode, SettledCode, Unknown};
@@ -327,6 +327,9 @@ impl Grounds {
     /// Withdraws a judgement whose reference belongs to a convention that the code does not have, or is not known to
     /// have, according to `probed`. `identities` are the programs that made the runs.
     fn hold_to_probe(&mut self, probed: &Probed, identities: &[Identity]) {
+        if probed.as_ref().is_ok_and(forces_are_late) {
+            self.allow_late_forces();
+        }
         let mut contradictions = contradictions(probed);
         contradictions.extend(other_program(probed, identities.iter()));
         let Some(first) = contradictions.first() else {

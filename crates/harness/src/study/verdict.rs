@@ -82,6 +82,9 @@ pub(crate) enum Ground {
     Held,
     /// A required condition is violated.
     Violation(String),
+    /// A required condition is violated, but would hold if the forces that move the bodies were those of the step
+    /// before.
+    LateForces(String),
     /// A reason to doubt an agreement; without a worse ground the row is inconclusive.
     Doubt(String),
     /// Deviations up to `up_to` decide nothing; larger ones still differ.
@@ -130,6 +133,7 @@ impl Ground {
             Self::NoYield(note) => note.as_deref(),
             Self::Held => None,
             Self::Violation(note)
+            | Self::LateForces(note)
             | Self::Doubt(note)
             | Self::Blur { note, .. }
             | Self::Undecidable(note)
@@ -172,7 +176,7 @@ impl Ground {
                 verdict => verdict,
             }),
             Self::Held => Some(Verdict::Agrees),
-            Self::Violation(_) => Some(Verdict::Differs),
+            Self::Violation(_) | Self::LateForces(_) => Some(Verdict::Differs),
             Self::Doubt(_) | Self::Blur { .. } | Self::Undecidable(_) | Self::NotJudged { .. } => {
                 Some(Verdict::Inconclusive)
             }
@@ -207,6 +211,26 @@ impl Grounds {
         });
     }
 
+    /// Turns violations that follow from late forces into a remark, since the code is known to have them.
+    pub(crate) fn allow_late_forces(&mut self) {
+        let is_late = |ground: &Ground| matches!(ground, Ground::LateForces(_));
+        let late: Vec<String> = self
+            .0
+            .extract_if(.., |ground| is_late(ground))
+            .filter_map(|ground| ground.note().map(str::to_owned))
+            .collect();
+        let Some(first) = late.first() else {
+            return;
+        };
+        let further = match late.len() {
+            1 => String::new(),
+            count => format!(" (and {} more)", count - 1),
+        };
+        self.add(Ground::Remark(format!(
+            "forces that are late by a step take damping away, so that the stack rings longer: {first}{further}"
+        )));
+    }
+
     /// Adds the comparison of a number with its expected value; `note` explains a disagreement.
     pub fn compare(&mut self, error: f64, uncertainty: f64, tolerance: f64, note: Option<String>) {
         self.add(Ground::Deviation {
@@ -217,6 +241,15 @@ impl Grounds {
         });
     }
 
+    /// The largest deviation that decides nothing.
+    fn blur(&self) -> f64 {
+        let blurs = self.0.iter().map(|ground| match ground {
+            Ground::Blur { up_to, .. } => *up_to,
+            _ => 0.0,
+        });
+        blurs.fold(0.0, f64::max)
+    }
+
     /// Derives the verdict.
     ///
     /// 1. A failed or missing run leaves nothing to judge.
@@ -224,11 +257,7 @@ impl Grounds {
     /// 3. Otherwise the worst ground counts: no yield, then a deviation or violation, then a doubt.
     /// 4. Without any comparison or condition the row is inconclusive.
     pub fn verdict(&self) -> Verdict {
-        let blurs = self.0.iter().map(|ground| match ground {
-            Ground::Blur { up_to, .. } => *up_to,
-            _ => 0.0,
-        });
-        let blur = blurs.fold(0.0, f64::max);
+        let blur = self.blur();
         let each = self.0.iter().filter_map(|ground| ground.verdict(blur));
         let worst = each.max().unwrap_or(Verdict::Inconclusive);
         let is_open =
@@ -240,9 +269,17 @@ impl Grounds {
         }
     }
 
-    /// Notes that explain the verdict, in the order in which they were added.
+    /// Notes that explain the verdict: first those of the grounds that decide it, last remarks.
     pub fn notes(&self) -> Vec<&str> {
-        self.0.iter().filter_map(Ground::note).collect()
+        let (verdict, blur) = (self.verdict(), self.blur());
+        let rank = |ground: &&Ground| match ground.verdict(blur) {
+            Some(own) if own == verdict => 0,
+            Some(_) => 1,
+            None => 2,
+        };
+        let mut noted: Vec<&Ground> = self.0.iter().filter(|own| own.note().is_some()).collect();
+        noted.sort_by_key(rank);
+        noted.into_iter().filter_map(Ground::note).collect()
     }
 
     /// Why the verdict is not `agrees`, in one line: the notes, or the numbers of the comparisons that decide.

@@ -3,7 +3,7 @@
 use super::evidence::{Evidence, MOVED, ROUNDING, SAME};
 use super::micro::{self, Micro};
 use super::report::{Grade, Item, Outcome};
-use super::stack::{self, at_first_sight};
+use super::stack::{self, Scheme, at_first_sight};
 use super::table::usual;
 use super::{equations, search, written};
 use crate::model::{Case, ContactConvention};
@@ -30,13 +30,30 @@ const MANY_EXACT: usize = 5;
 
 /// Returns the items on the `series` of `case`, and on the micro-tests if there are any. Failed items are explained
 /// by the mistake that explains all of them, else by a gross mistake or the equations that fail, else by their own
-/// causes, else by the usual ones.
-pub(super) fn items(series: &Series, case: &Case, micro: Option<&Micro>) -> Vec<Item> {
+/// causes, else by the usual ones. `run` carries out another case with the code.
+pub(super) fn items(
+    series: &Series,
+    case: &Case,
+    micro: Option<&Micro>,
+    run: &dyn Fn(&Case) -> Option<Series>,
+) -> Vec<Item> {
     let of_micro = items_of(micro);
     let conventions = micro.map_or_else(|| vec![case.convention], Micro::conventions);
     let convention = conventions.last().copied().unwrap_or(case.convention);
     let known = Known::of(series, case, micro, convention);
-    let mut items = stack::items(series, case, &known.stacks);
+    let depends_on_step = of_micro.iter().any(micro::is_step_effect)
+        && !of_micro.iter().any(|item| item.outcome == Outcome::Failed);
+    let finer = || {
+        let mut fine = *case;
+        fine.protocol.time_step *= 0.5;
+        let series = depends_on_step.then(|| run(&fine)).flatten()?;
+        Some(Evidence::of_stack(&series, &fine, convention, false))
+    };
+    let scheme = Scheme {
+        is_late: micro.is_some_and(Micro::forces_are_late),
+        finer: &finer,
+    };
+    let mut items = stack::items(series, case, &known.stacks, &scheme);
     items.extend(of_micro);
     items.extend(known.item());
     if !items.iter().any(is_to_be_explained) {

@@ -9,8 +9,8 @@ use crate::code::{Code, ConventionKey};
 use crate::model::ContactConvention;
 use crate::runs::{Answer, ProbeRecord};
 use crate::study::convention::{
-    DAMPING_VELOCITY_LAG, Finding, Findings, OVERLAP_LEAD, TOLERANCE, probe, read_probe,
-    step_effects,
+    DAMPING_VELOCITY_LAG, FORCE_LAG, Finding, Findings, OVERLAP_LEAD, TOLERANCE, forces_are_late,
+    probe, read_probe, step_effects,
 };
 
 /// Largest relative deviation of numbers that have few digits.
@@ -28,7 +28,7 @@ const PARAMETERS: [(&str, &[&str]); 7] = [
     ("friction", &["friction"]),
     ("force of the top wall", &["reported_force"]),
 ];
-const MOMENTS: [&str; 2] = [OVERLAP_LEAD, DAMPING_VELOCITY_LAG];
+const MOMENTS: [&str; 3] = [OVERLAP_LEAD, DAMPING_VELOCITY_LAG, FORCE_LAG];
 const MOMENTS_NAME: &str = "forces and positions of one moment";
 
 /// The item on the declared convention.
@@ -69,6 +69,11 @@ impl Micro {
             answers,
             reaction,
         })
+    }
+
+    /// Whether the forces that move the bodies are late.
+    pub fn forces_are_late(&self) -> bool {
+        forces_are_late(&self.findings)
     }
 
     /// Whether a property deviates from its declaration.

@@ -134,9 +134,14 @@ impl Check<'_> {
             return None;
         };
         let micro = self.micro_tests(installed.as_ref())?;
-        let compared = diagnosis::items(&run.series, &case, micro.as_ref());
+        let finer = |case: &Case| {
+            let run = self.run(installed.as_ref(), case, "finer")?;
+            Some(run.series)
+        };
+        let compared = diagnosis::items(&run.series, &case, micro.as_ref(), &finer);
         self.report.items.extend(compared);
-        self.spheres(installed.as_ref());
+        let is_late = micro.as_ref().is_some_and(Micro::forces_are_late);
+        self.spheres(installed.as_ref(), is_late);
         let again = self.run(installed.as_ref(), &case, "again");
         self.add(same_bits(
             &run.series,
@@ -237,7 +242,7 @@ impl Check<'_> {
     }
 
     /// Runs a sphere on three, if the code has a task for it: as it is, turned, mirrored and renumbered.
-    fn spheres(&mut self, installed: &dyn InstalledCode) {
+    fn spheres(&mut self, installed: &dyn InstalledCode, is_late: bool) {
         const NAME: &str = "task spheres";
         let usual = spheres::case(self.code.declaration().convention, Arrangement::default());
         let Some(case) = usual.filter(|_| self.code.check_task(TaskKind::Spheres).is_ok()) else {
@@ -254,7 +259,7 @@ impl Check<'_> {
             format!("{} steps in {seconds:.2} s", case.total_steps()),
         ));
         let is_declared = self.code.declaration().left_out.is_empty();
-        let items = spheres::items(&run.series, &case, is_declared);
+        let items = spheres::items(&run.series, &case, is_declared, is_late);
         self.report.items.extend(items);
         for (name, arrangement) in spheres::OTHERS {
             let Some(other) = spheres::case(self.code.declaration().convention, arrangement) else {

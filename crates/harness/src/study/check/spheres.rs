@@ -2,6 +2,7 @@
 //! stack in other arrangements.
 
 use super::report::{Grade, Item};
+use super::stack::rings_longer;
 use crate::dem::compress_stack;
 use crate::model::{Arrangement, Case, ContactConvention, Problem, Stack};
 use crate::series::{Mechanics, Series, YieldEstimates};
@@ -69,8 +70,8 @@ const MECHANICS: &str = "spheres: mechanics";
 const TWIN: &str = "spheres: slip onset";
 
 /// Returns the items on the `series` of `case`. `is_declared` says whether the manifest declares the whole
-/// convention.
-pub(super) fn items(series: &Series, case: &Case, is_declared: bool) -> [Item; 2] {
+/// convention, and `is_late` whether the forces that move the bodies are known to be late.
+pub(super) fn items(series: &Series, case: &Case, is_declared: bool, is_late: bool) -> [Item; 2] {
     let grade = Grade::Consistency;
     let mechanics = Mechanics::read(series, case);
     let broken = mechanics.violations().next();
@@ -80,6 +81,9 @@ pub(super) fn items(series: &Series, case: &Case, is_declared: bool) -> [Item; 2
             MECHANICS,
             "balance of forces, symmetry of the ring, overlaps",
         ),
+        Some((_, deviation)) if is_late && deviation.is_of_late_forces => {
+            Item::remark(grade, MECHANICS, rings_longer(deviation))
+        }
         Some((law, deviation)) => Item::failed(
             grade,
             MECHANICS,
@@ -202,7 +206,7 @@ mod tests {
                 (compress_stack(&case, || true).unwrap(), case)
             };
             let (usual, usual_case) = run(USUAL);
-            for item in items(&usual, &usual_case, true) {
+            for item in items(&usual, &usual_case, true, false) {
                 assert_eq!(item.outcome, Outcome::Passed, "{item:?}");
             }
             for (name, arrangement) in OTHERS {

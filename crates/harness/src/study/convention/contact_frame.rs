@@ -71,11 +71,11 @@ pub fn contact_rows(
     motion: &Motion,
     clock: &Clock,
 ) -> Vec<ContactRow> {
-    let read = |row| contact_row(kind, test, row, clock);
+    let read = |before, row| contact_row(kind, test, before, row, clock);
     let two = motion.rows().windows(2);
     two.map(|two| ContactRow {
-        last_normal: read(&two[0]).normal,
-        ..read(&two[1])
+        last_normal: read(&two[0], &two[0]).normal,
+        ..read(&two[0], &two[1])
     })
     .take_while(|row| row.overlap > 0.0)
     .collect()
@@ -93,13 +93,14 @@ pub fn as_long_as(rows: &[ContactRow], wanted: impl Fn(&ContactRow) -> bool) -> 
 fn contact_row(
     kind: ContactKind,
     test: &ContactTest,
+    before: &MotionRow,
     row: &MotionRow,
     clock: &Clock,
 ) -> ContactRow {
     let dt = test.time_step;
-    let [one, two] = row.bodies();
-    let [(velocity, spin), (other_velocity, other_spin)] =
-        [&one, &two].map(|body| clock.half_step_earlier(body, dt));
+    let ([one, two], before) = (row.bodies(), before.bodies());
+    let [(velocity, spin), (other_velocity, other_spin)] = [(&before[0], &one), (&before[1], &two)]
+        .map(|(before, body)| clock.half_step_earlier(before, body, dt));
     let (normal, overlap, relative, spins) = match kind {
         ContactKind::Floor => ([0.0, 1.0], 1.0 - one.position[1], velocity, [spin, 0.0]),
         ContactKind::Wall => {

@@ -30,7 +30,7 @@ const LARGEST_HIDDEN: f64 = 1.0;
 
 /// Share of a deviation at the longest step that is left of it at a shorter one, if it vanishes with the step: at half
 /// the step it is half of one of first order.
-const VANISHING: f64 = 0.75;
+pub(crate) const VANISHING: f64 = 0.75;
 
 /// Uncertainty of a time in units of the step, up to which it is the same at every step.
 const SMALL_EFFECT: f64 = 1e-2;
@@ -140,6 +140,10 @@ fn of_all_levels(first: &Property, alike: &[Measured], limit: fn(&[f64]) -> Meas
     let values: Vec<f64> = alike.iter().map(|own| own.value).collect();
     let (limit, at_step) = (limit(&values), first.measured.value);
     let allowed = TOLERANCE * first.scale();
+    // An error of the scheme that is known as it is.
+    if first.step_effect.is_some() {
+        return first.clone();
+    }
     let is_exact = first.measured.uncertainty <= allowed;
     let of_scheme = vanishes(first.measured.uncertainty, alike);
     // What the probe knows, and what is wrong with the law, no shorter step shows better.

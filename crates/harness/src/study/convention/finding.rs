@@ -40,6 +40,9 @@ pub const TANGENTIAL_DAMPING_EXPONENT: &str = "tangential_damping_exponent";
 pub const OVERLAP_LEAD: &str = "overlap_lead";
 pub const DAMPING_VELOCITY_LAG: &str = "damping_velocity_lag";
 
+/// Name of the steps by which the forces that move the bodies lag behind the positions.
+pub const FORCE_LAG: &str = "force_lag";
+
 /// Name of what a contact does to its spring when it turns, without the kind of contact.
 pub const HISTORY_UPDATE: &str = "history_update";
 
@@ -140,6 +143,10 @@ impl Finding {
             } = effect;
             let (kind, time) = name.split_once('_').unwrap_or(("", name));
             return Some(match time {
+                _ if name == FORCE_LAG => format!(
+                    "the forces that move the bodies are those of {} the positions, an error of first order in the time step",
+                    steps_away(measured, ["before", "after"])
+                ),
                 OVERLAP_LEAD if self.declared.is_none() => format!(
                     "{kind}: the normal force takes the overlap {} the positions, an error of first order in the time step",
                     steps_away(measured, ["after", "before"])

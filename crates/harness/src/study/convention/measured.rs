@@ -1,7 +1,7 @@
 //! The conventions of the codes, measured before anything is judged by them.
 
 use super::convergence::converged;
-use super::finding::Finding;
+use super::finding::{FORCE_LAG, Finding, TOLERANCE};
 use super::micro_tests::MicroTests;
 use super::settled::settled;
 use crate::code::{Code, ConventionKey, Declaration, Identity, Provenance, Settled, TaskKind};
@@ -175,6 +175,14 @@ pub fn arms_are_measured(probed: &Probed) -> bool {
     let arms = probe.findings.iter();
     let mut arms = arms.filter(|finding| finding.property.ends_with("_arm"));
     arms.all(|finding| finding.verdict == Verdict::Agrees)
+}
+
+/// Whether the forces that move the bodies were found to be late, by one step or less.
+pub fn forces_are_late(probe: &Findings) -> bool {
+    let late = |lag: f64| lag > 0.0 && lag <= 1.0 + TOLERANCE;
+    let mut findings = probe.findings.iter();
+    let lag = findings.find(|own| own.property == FORCE_LAG);
+    lag.and_then(|own| own.measured).is_some_and(late)
 }
 
 /// Names the first of the programs whose runs a probe of another program must not vouch for, if there is one.

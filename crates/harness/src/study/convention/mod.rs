@@ -32,13 +32,13 @@ mod space;
 mod spring_shape;
 mod tangential;
 
-pub(crate) use convergence::converged;
-pub(crate) use finding::{DAMPING_VELOCITY_LAG, OVERLAP_LEAD};
+pub(crate) use convergence::{VANISHING, converged};
+pub(crate) use finding::{DAMPING_VELOCITY_LAG, FORCE_LAG, OVERLAP_LEAD};
 pub use finding::{Finding, StepEffect, TOLERANCE, step_effects};
 pub use measured::{
     Findings, ProbeError, Probed, contradictions, probe_all, probe_records, read_probe,
 };
-pub(crate) use measured::{arms_are_measured, is_contradicted, other_program};
+pub(crate) use measured::{arms_are_measured, forces_are_late, is_contradicted, other_program};
 pub use measured_arms::{MeasuredArms, UnusablePassport};
 pub(crate) use micro_tests::ask;
 pub use passport::{ArmEffects, MeasuredKey, PASSPORT, Passport, passport, reservations};

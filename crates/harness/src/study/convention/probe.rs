@@ -76,7 +76,7 @@ pub(super) fn measure<E>(
         let index = CONTACT_KINDS.iter().position(|own| *own == kind)?;
         Some(&laws[index])
     };
-    let in_space = space::properties(of_spheres, clock.velocity_lag.value, declared);
+    let in_space = space::properties(of_spheres, &clock, declared);
     let cycles = cycle::properties(driven, &clock, |kind| of(kind).map(Laws::tangential));
     let floor_ratio = floor_ratio(of, declared);
     let near_slip: Vec<Vec<ContactTest>> = laws.iter().map(Laws::threshold_tests).collect();

@@ -1,6 +1,6 @@
 //! The convention that the properties of a code show, where its manifest says nothing.
 
-use super::finding::{Property, TOLERANCE};
+use super::finding::{FORCE_LAG, Property, TOLERANCE};
 use super::properties::{HISTORY_UPDATES, LEFT_BEHIND, OPERANDS, SLIDING_SPRINGS, TENSILE_FORCES};
 use super::regression::Measured;
 use crate::code::{ConventionKey, Declaration, Settled, Unknown};
@@ -16,6 +16,8 @@ const NOT_SHOWN: &str = "its motions do not show it";
 pub(super) fn settled(declaration: &Declaration, properties: &[Property]) -> Settled {
     let mut settled = declaration.unsettled("");
     settled.unknown.clear();
+    let lag = properties.iter().find(|own| own.name == FORCE_LAG);
+    settled.force_lag = lag.map_or(0.0, |own| own.measured.value.max(0.0));
     for &key in &declaration.left_out {
         let own = properties.iter().filter(|own| own.key() == Some(key));
         let own: Vec<&Property> = own.collect();

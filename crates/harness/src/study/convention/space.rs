@@ -12,6 +12,7 @@
 //! a contact sticks, regressions give a, b, c and d and the weight of each component of the spins in the motion of the
 //! surfaces; d counts only where it is declared or seen.
 
+use super::clock::Clock;
 use super::experiments::ContactKind;
 use super::finding::{Property, TOLERANCE};
 use super::properties::LEFT_BEHIND;
@@ -214,7 +215,7 @@ fn test(convention: &ContactConvention, friction: f64, bodies: &[State; 2]) -> C
 /// and, if the law that is needed to read them is declared, what the contacts do.
 pub fn properties(
     outcomes: &[(&ContactTest, &Motion)],
-    velocity_lag: f64,
+    clock: &Clock,
     declared: &Declaration,
 ) -> Vec<Property> {
     use ConventionKey::{MomentOfInertia, VelocityLag};
@@ -236,7 +237,7 @@ pub fn properties(
     properties.extend(kinds.flat_map(|kind| {
         let rows = |outcomes: &[(&ContactTest, &Motion)]| {
             let each = outcomes.iter();
-            let each = each.map(|(test, motion)| rows_of(kind, test, motion, velocity_lag));
+            let each = each.map(|(test, motion)| rows_of(kind, test, motion, clock));
             each.collect::<Vec<_>>()
         };
         let law = Reader {
@@ -266,11 +267,11 @@ struct Row {
 }
 
 /// The rows of a motion from step 1 on, as long as the contact is closed.
-fn rows_of(kind: ContactKind, test: &ContactTest, motion: &Motion, velocity_lag: f64) -> Vec<Row> {
-    let rows = motion.rows()[1..].iter();
-    rows.map_while(|row| {
-        let bodies = [0, 1].map(|body| Body::of(row, body));
-        let [one, two] = bodies.map(|body| body.half_step_earlier(test, velocity_lag));
+fn rows_of(kind: ContactKind, test: &ContactTest, motion: &Motion, clock: &Clock) -> Vec<Row> {
+    let rows = motion.rows().windows(2);
+    rows.map_while(|two| {
+        let bodies = [0, 1].map(|body| [&two[0], &two[1]].map(|row| Body::of(row, body)));
+        let [one, two] = bodies.map(|[before, body]| body.half_step_earlier(&before, test, clock));
         let sum = |left: Vector, right: Vector| combine(left, 1.0, right);
         let difference = |left: Vector, right: Vector| combine(left, -1.0, right);
         let (normal, overlap, velocity, spin) = match kind {
@@ -337,13 +338,20 @@ impl Body {
     }
 
     /// The sphere with the velocities of half a step before its position, for unit mass and the inertia that the test
-    /// asks for.
-    fn half_step_earlier(self, test: &ContactTest, velocity_lag: f64) -> Self {
-        let back = (velocity_lag - 0.5) * test.time_step;
+    /// asks for, from its rows of that step and of the step `before`.
+    fn half_step_earlier(self, before: &Self, test: &ContactTest, clock: &Clock) -> Self {
+        let back = (clock.velocity_lag.value - 0.5) * test.time_step;
         let inertia = test.convention.moment_of_inertia;
+        let moving = |before: Vector, now: Vector| {
+            std::array::from_fn(|axis| clock.moving(before[axis], now[axis]))
+        };
+        let (force, torque) = (
+            moving(before.force, self.force),
+            moving(before.torque, self.torque),
+        );
         Self {
-            velocity: combine(self.velocity, back, self.force),
-            spin: combine(self.spin, back / inertia, self.torque),
+            velocity: combine(self.velocity, back, force),
+            spin: combine(self.spin, back / inertia, torque),
             ..self
         }
     }
@@ -732,13 +740,20 @@ mod tests {
             .collect();
         let asked: Vec<ContactTest> = super::tests(&declared);
         let outcomes: Vec<_> = asked.iter().zip(&motions).collect();
+        let clock = Clock {
+            mass: Measured::new(1.0, 0.0),
+            moment_of_inertia: Measured::new(own.moment_of_inertia, 0.0),
+            velocity_lag: Measured::new(0.5, 0.0),
+            force_lag: None,
+            grain: 1,
+        };
         let declared = Declaration {
             convention: declared,
             velocity_lag: 0.5,
             left_out: Vec::new(),
             in_space: true,
         };
-        properties(&outcomes, 0.5, &declared)
+        properties(&outcomes, &clock, &declared)
     }
 
     /// The properties that are not as declared.

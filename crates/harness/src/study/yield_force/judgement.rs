@@ -12,7 +12,7 @@ use crate::model::Protocol;
 use crate::runs::{RunSummary, Workload};
 use crate::series::{YieldEstimates, left_of_touch};
 use crate::study::{
-    Evaluation, Ground, Grounds, Judged, MAX_TOLERANCE, MIN_TOLERANCE, Study, tolerance,
+    Evaluation, Ground, Grounds, Judged, MAX_TOLERANCE, MIN_TOLERANCE, Study, Verdict, tolerance,
 };
 
 /// The yield force that the runs of a measurement show.
@@ -204,8 +204,14 @@ impl<'a> Reader<'a> {
         let load = self.measurement.stack.floor_load(reference);
         let relative = uncertainty / load;
         let error = (force - reference) / load;
-        self.grounds
-            .compare(error, relative, tolerance(relative), None);
+        let allowed = tolerance(relative);
+        let is_coarse = Verdict::of(error, relative, allowed) == Verdict::Inconclusive;
+        let note = is_coarse.then(|| {
+            format!(
+                "too coarse: its uncertainty is {relative:.1e} of the load, and may be {allowed:.1e}"
+            )
+        });
+        self.grounds.compare(error, relative, allowed, note);
     }
 
     fn doubt(&mut self, note: String) {

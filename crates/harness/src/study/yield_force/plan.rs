@@ -198,7 +198,9 @@ pub(crate) fn planned(
         .zip(paper.yield_force)
         .map(|(own, paper)| (own - paper) / stack.floor_load(paper));
     let protocols = match method {
-        Method::Extrapolated => planned_protocols(&limit, stack, &convention),
+        Method::Extrapolated => {
+            planned_protocols(&limit, stack, &convention, code.settled().force_lag)
+        }
         Method::Literal => literal_protocols(&limit),
         Method::AtOneSpeed => None,
     };
@@ -253,9 +255,10 @@ fn planned_protocols(
     limit: &Limit,
     stack: &Stack,
     convention: &ContactConvention,
+    force_lag: f64,
 ) -> Option<Vec<Protocol>> {
     let scale = speed_scale(limit, stack, convention)?;
-    let time_step = stable_time_step(stack, convention);
+    let time_step = stable_time_step(stack, convention, force_lag);
     let protocols = SPEEDS.map(|speed| protocol_at_speed(limit, speed * scale, time_step));
     let mut protocols: Vec<Protocol> = protocols.into_iter().collect::<Option<_>>()?;
     let middle = protocols[MIDDLE_RUN];
@@ -277,11 +280,22 @@ fn planned_protocols(
 }
 
 /// The usual time step, halved until twice that step is stable: below κ = 0.375 tangential springs are too stiff for
-/// it.
-fn stable_time_step(stack: &Stack, convention: &ContactConvention) -> f64 {
+/// it. Forces that are late by `force_lag` steps must leave half of the damping then.
+fn stable_time_step(stack: &Stack, convention: &ContactConvention, force_lag: f64) -> f64 {
     let longest = stack.longest_time_step(convention);
+    let at_rest = stack.epsilon() / f64::from(stack.bodies);
+    let laws = [
+        convention.law(stack.stiffness_ratio),
+        convention.wall_law(stack.stiffness_ratio),
+    ];
+    let damping_time = laws.map(|law| law.damping_time(at_rest));
+    // Where nothing is damped, nothing can be left.
+    let latest = match 0.5 * damping_time[0].min(damping_time[1]) {
+        latest if latest > 0.0 => latest,
+        _ => f64::INFINITY,
+    };
     let mut time_step = TIME_STEP;
-    while 2.0 * time_step > longest {
+    while 2.0 * time_step > longest || 2.0 * time_step * force_lag > latest {
         time_step *= 0.5;
     }
     time_step

@@ -195,6 +195,15 @@ impl ContactLaw {
         self.power.value() * self.at(overlap).secant
     }
 
+    /// η/k at a normal force, in √(m/k_n); the smaller one of the normal and the tangential direction. An oscillation of
+    /// frequency ω decays at ω²/2 times this or faster, less the time by which forces are late.
+    pub fn damping_time(&self, force: f64) -> f64 {
+        let overlap = self.overlap(force);
+        let own = self.at(overlap);
+        let normal = own.damping_normal / self.stiffness(overlap);
+        normal.min(own.damping_tangential / own.tangential_stiffness)
+    }
+
     /// k_t at an overlap without stiffening, which is k_t to first order in small overlaps.
     pub(crate) fn unstiffened(&self, overlap: f64) -> f64 {
         let plain = Self {

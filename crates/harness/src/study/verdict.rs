@@ -357,6 +357,28 @@ mod tests {
     }
 
     #[test]
+    fn what_decides_is_told_first_and_remarks_last() {
+        let notes = [
+            Ground::Remark("a remark".to_owned()),
+            Ground::Doubt("a doubt".to_owned()),
+            Ground::Violation("a violation".to_owned()),
+        ];
+        let told = grounds(&notes);
+        assert_eq!(told.notes(), ["a violation", "a doubt", "a remark"]);
+    }
+
+    #[test]
+    fn late_forces_violate_unless_the_code_is_known_to_have_them() {
+        let late = |note: &str| Ground::LateForces(note.to_owned());
+        let mut both = grounds(&[late("run 1"), deviation(0.1), late("run 2")]);
+        assert_eq!(both.verdict(), Verdict::Differs);
+        both.allow_late_forces();
+        assert_eq!(both.verdict(), Verdict::Agrees);
+        let told = both.notes();
+        assert!(told[0].ends_with("run 1 (and 1 more)"), "{told:?}");
+    }
+
+    #[test]
     fn the_worst_ground_decides() {
         let doubt = Ground::Doubt("a doubt".to_owned());
         let violation = Ground::Violation("a violation".to_owned());

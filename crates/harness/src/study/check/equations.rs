@@ -318,6 +318,8 @@ pub(super) struct Failing {
     pub texts: Vec<String>,
     /// Whether the mistake in the first one is known.
     pub is_explained: bool,
+    /// Whether the mistakes in all of them are known.
+    pub are_explained: bool,
 }
 
 /// Returns the equations that fail in `answers` of a code with this `convention`, and what is added or left out in
@@ -372,12 +374,14 @@ pub(super) fn failing(answers: &[Answer], convention: ContactConvention, leaps: 
         }
     }
     told.truncate(MOST_CAUSES);
+    let are_explained = told.iter().all(|(_, own)| own.is_explained);
     let texts = told
         .into_iter()
         .map(|(equations, own)| format!("{}: {}{}", subject(&equations), own.condition, own.text));
     Failing {
         texts: texts.collect(),
         is_explained,
+        are_explained,
     }
 }
 

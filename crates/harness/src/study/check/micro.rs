@@ -24,7 +24,7 @@ const PARAMETERS: [(&str, &[&str]); 7] = [
     ("normal stiffness", &["normal_stiffness"]),
     ("tangential stiffness", &["tangential_stiffness"]),
     ("damping", &["normal_damping", "tangential_damping"]),
-    ("radius and torque", &["radius"]),
+    ("radius and torque", &["radius", "spring_radius"]),
     ("friction", &["friction"]),
     ("force of the top wall", &["reported_force"]),
 ];

@@ -5,7 +5,7 @@
 //! shorter steps until v is known. What is not v yet vanishes with the step, and is no contradiction.
 
 use super::finding::{NEAR_A_RULE, Property, StepEffect, TOLERANCE};
-use super::probe::{measure, without_consequences};
+use super::probe::{measure, with_one_radius, without_consequences};
 use super::regression::Measured;
 use crate::code::Declaration;
 use crate::model::ContactTest;
@@ -55,6 +55,7 @@ pub fn converged<E>(
             .fold(digits, u32::max);
         Ok(motions)
     })?;
+    let first = with_one_radius(first);
     let mut found = first.clone();
     let mut levels: Vec<Vec<Property>> = Vec::new();
     for divisor in DIVISORS {
@@ -221,30 +222,44 @@ fn at_zero(values: &[f64]) -> Measured {
 }
 
 /// The limit of values of all levels by Neville's scheme for polynomials in the step; the best of all orders is taken.
-/// Its uncertainty is twice the larger difference to the limits with one value less, and half of what that was with one
-/// value less: a difference alone can be small by accident.
+/// Its uncertainty is twice the larger difference to the limits of one order less, and once more what that was without the
+/// last value: a difference alone can be small by accident. Of values that scatter by a tenth of their effect of first
+/// order, the limit lies outside of it in one case of ninety.
 fn extrapolated(values: &[f64]) -> Measured {
-    let mut best = Measured::UNKNOWN;
-    let mut row: Vec<f64> = Vec::new();
-    let mut difference = None;
+    let mut limits: Vec<Vec<f64>> = Vec::new();
     for (level, &value) in values.iter().enumerate() {
-        let mut next = vec![value];
-        for (order, coarser) in (1..).zip(&row) {
-            let finer = next[order - 1];
+        let mut own = vec![value];
+        for order in 1..=level {
             let ratio = DIVISORS[level] as f64 / DIVISORS[level - order] as f64;
-            next.push(finer + (finer - coarser) / (ratio - 1.0));
+            let (finer, coarser) = (own[order - 1], limits[level - 1][order - 1]);
+            own.push(finer + (finer - coarser) / (ratio - 1.0));
         }
-        if let [.., lower, limit] = next[..] {
-            let before = row.last().copied().unwrap_or(f64::NAN);
-            let own = (limit - lower).abs().max((limit - before).abs());
-            let uncertainty = 2.0 * own + 0.5 * difference.replace(own).unwrap_or(own);
-            if uncertainty <= best.uncertainty {
-                best = Measured::new(limit, uncertainty);
-            }
-        }
-        row = next;
+        limits.push(own);
     }
-    best
+    let difference = |level: usize, order: usize| {
+        let lower = [limits[level][order - 1], limits[level - 1][order - 1]];
+        let limit = limits[level][order];
+        lower
+            .map(|lower| (limit - lower).abs())
+            .into_iter()
+            .fold(0.0, f64::max)
+    };
+    let last = values.len().saturating_sub(1);
+    let of_order = |order: usize| {
+        let own = difference(last, order);
+        let before = match order < last {
+            true => difference(last - 1, order),
+            // With one value less there is no such order.
+            false => difference(last - 1, order - 1),
+        };
+        Measured::new(limits[last][order], 2.0 * own + before)
+    };
+    let orders = (1..=last).map(|order| match last {
+        1 => Measured::new(limits[1][1], 3.0 * difference(1, 1)),
+        _ => of_order(order),
+    });
+    let best = orders.min_by(|one, other| one.uncertainty.total_cmp(&other.uncertainty));
+    best.unwrap_or(Measured::UNKNOWN)
 }
 
 #[cfg(test)]
@@ -278,6 +293,21 @@ mod tests {
         }
         let values = at_all_levels(|step| 2.0 + 0.3 * step * step);
         assert_eq!(order(&values, at_zero(&values)), 2);
+    }
+
+    /// The tangential stiffness of a code whose number of steps inside a step depends on the motion: 2.
+    #[test]
+    fn values_that_rest_before_they_converge_are_not_known_too_well() {
+        let values = [
+            1.9988154, 1.9988888, 1.9989640, 1.9992437, 1.9994951, 1.9995964,
+        ];
+        for count in 4..=values.len() {
+            let Measured { value, uncertainty } = at_zero(&values[..count]);
+            assert!(
+                (value - 2.0).abs() <= uncertainty,
+                "{count}: {value} ± {uncertainty:e}"
+            );
+        }
     }
 
     #[test]

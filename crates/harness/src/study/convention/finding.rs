@@ -46,6 +46,11 @@ pub const FORCE_LAG: &str = "force_lag";
 /// Name of what a contact does to its spring when it turns, without the kind of contact.
 pub const HISTORY_UPDATE: &str = "history_update";
 
+/// Names of the radius at vanishing overlap from the torque, and from the growth of the spring, without the kind of
+/// contact.
+pub const RADIUS: &str = "radius";
+pub const SPRING_RADIUS: &str = "spring_radius";
+
 /// Names of the work of closed cycles, without the kind of contact.
 pub const SHEARED_FIRST: &str = "cycle_work_sheared_first";
 pub const PRESSED_FIRST: &str = "cycle_work_pressed_first";
@@ -337,6 +342,7 @@ impl Property {
             false => relative * scale,
         };
         let enough = match self.shows_rule() || self.is_time_in_steps() {
+            true if self.is_extrapolated && self.shows_rule() => NEAR_A_RULE,
             true => CLEAR,
             false => allowed,
         };

@@ -4,9 +4,10 @@ use super::clock::Clock;
 use super::contact_frame::contact_rows;
 use super::cycle;
 use super::experiments::{self, ContactKind};
-use super::finding::Property;
+use super::finding::{Property, RADIUS, SPRING_RADIUS, TOLERANCE};
 use super::plan::{Laws, MicroTests, TestedMotion};
 use super::space;
+use super::tangential::radii_apart;
 use crate::code::Declaration;
 use crate::model::ContactTest;
 use crate::series::Motion;
@@ -28,7 +29,8 @@ pub fn probe<E>(
     declared: &Declaration,
     run: impl FnMut(&[ContactTest]) -> Result<Vec<Motion>, E>,
 ) -> Result<Vec<Property>, E> {
-    measure(declared, 1, 1, run).map(without_consequences)
+    let properties = measure(declared, 1, 1, run)?;
+    Ok(without_consequences(with_one_radius(properties)))
 }
 
 /// Measures all properties by micro-tests whose time steps are divided by `divisor`. Motions are cut off after multiples
@@ -111,6 +113,20 @@ pub(super) fn without_consequences(properties: Vec<Property>) -> Vec<Property> {
         is_in_space(own) && kinds.any(|(kind, differs)| differs && is_of(kind, own))
     };
     properties.into_iter().filter(|own| !follows(own)).collect()
+}
+
+/// `properties` without the radii from the growth of springs that are those of the torque.
+pub(super) fn with_one_radius(properties: Vec<Property>) -> Vec<Property> {
+    let named = |name: &str| properties.iter().find(|own| own.name == name);
+    let is_seen = |own: &Property| {
+        let Some(kind) = own.name.strip_suffix(SPRING_RADIUS) else {
+            return true;
+        };
+        let of_torque = named(&format!("{kind}{RADIUS}"));
+        of_torque.is_some_and(|torque| radii_apart(torque.measured, own.measured) > TOLERANCE)
+    };
+    let seen = properties.iter().filter(|own| is_seen(own));
+    seen.cloned().collect()
 }
 
 /// Whether it is a property of a contact of spheres.

@@ -5,7 +5,8 @@ use super::finding::{
     CUBED_TURN, DAMPING_VELOCITY_LAG, EXPONENT, HISTORY_UPDATE, OVERLAP_LEAD, Property, TOLERANCE,
 };
 use super::finding::{
-    FORCE_EXPONENT, NORMAL_DAMPING_EXPONENT, TANGENTIAL_DAMPING_EXPONENT, TANGENTIAL_EXPONENT,
+    FORCE_EXPONENT, NORMAL_DAMPING_EXPONENT, RADIUS, SPRING_RADIUS, TANGENTIAL_DAMPING_EXPONENT,
+    TANGENTIAL_EXPONENT,
 };
 use super::normal::LinearNormalLaw;
 use super::power::NormalPowerLaw;
@@ -204,7 +205,8 @@ pub fn tangential_properties(
     let rows = [
         ("tangential_stiffness", law.stiffness, stiffness),
         ("tangential_damping", law.damping, damping),
-        ("radius", law.radius, 1.0),
+        (RADIUS, law.radius, 1.0),
+        (SPRING_RADIUS, law.spring_radius, 1.0),
         ("torque_arm", law.torque_arm, arms.torque),
         ("kinematic_arm", law.kinematic_arm, arms.kinematic),
         ("damping_arm", law.damping_arm, arms.kinematic),

@@ -34,6 +34,8 @@ pub struct TangentialLaw {
     pub damping: Measured,
     /// R at vanishing overlap, from the torque.
     pub radius: Measured,
+    /// R at vanishing overlap, from the growth of the spring.
+    pub spring_radius: Measured,
     /// r₁ from the torque.
     pub torque_arm: Measured,
     /// r₁ from the growth of the spring, in the limit of small steps.
@@ -233,6 +235,7 @@ impl TangentialLaw {
             form,
             damping: found[DAMPING],
             radius,
+            spring_radius: found[SPRING_SPIN].over(found[SPRING]),
             torque_arm,
             kinematic_arm: found[SPRING_SPIN_OVERLAP].over(found[SPRING]),
             third_order: form.third_order.then(third_order),
@@ -241,14 +244,18 @@ impl TangentialLaw {
             left_behind: None,
             exerts_lift: true,
         }
-        .with_common_radius(found[SPRING_SPIN].over(found[SPRING]))
+        .with_common_radius()
     }
 
-    /// Adds the difference between the radius of the spring and that of the torque, which should be the same, to the
+    /// Adds a small difference between the radius of the spring and that of the torque, which should be the same, to the
     /// uncertainty of the latter.
-    fn with_common_radius(mut self, of_spring: Measured) -> Self {
-        let apart = (of_spring.value - self.radius.value).abs();
-        self.radius.uncertainty += (apart - of_spring.uncertainty).max(0.0);
+    fn with_common_radius(mut self) -> Self {
+        let apart = radii_apart(self.radius, self.spring_radius);
+        self.radius.uncertainty += if apart > TOLERANCE {
+            0.0
+        } else {
+            apart.max(0.0)
+        };
         self
     }
 
@@ -426,6 +433,11 @@ fn has_third_order(motions: &[&[ContactRow]], radius: f64) -> bool {
     let (with, without) = (left(true), left(false));
     with.zip(without)
         .is_some_and(|(with, without)| with < EXPLAINED * without)
+}
+
+/// The difference of two radii less the uncertainty of the second one.
+pub fn radii_apart(of_torque: Measured, of_spring: Measured) -> f64 {
+    (of_spring.value - of_torque.value).abs() - of_spring.uncertainty
 }
 
 /// R at vanishing overlap and r₁ from −M = (R(0) + r₁ δ) f_t, of both bodies where both feel it.

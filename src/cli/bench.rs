@@ -24,7 +24,7 @@ use std::path::PathBuf;
 #[command(after_help = "Example: tristack bench --codes native,lammps --repeats 3")]
 pub(super) struct Arguments {
     /// Codes to time, separated by commas; each must be installed [default: the first variant of every installed code]
-    #[arg(long, value_parser = CodeParser, value_delimiter = ',', value_name = "C1,C2")]
+    #[arg(long, alias = "code", value_parser = CodeParser, value_delimiter = ',', value_name = "C1,C2")]
     codes: Vec<Code>,
     /// Number of measurements, whose medians are printed
     #[arg(long, value_name = "N", value_parser = whole::<usize>(1..=1000))]

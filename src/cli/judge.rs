@@ -38,7 +38,7 @@ pub(super) struct Arguments {
     #[command(flatten)]
     series: SeriesArguments,
     /// Folder of the code, if it is no longer where it was planned
-    #[arg(long, value_parser = CodeParser, value_name = "CODE", conflicts_with = "series")]
+    #[arg(long, alias = "codes", value_parser = CodeParser, value_name = "CODE", conflicts_with = "series")]
     code: Option<Code>,
     /// Version of the program that made the results
     #[arg(long, value_name = "TEXT", value_parser = one_line, default_value = UNKNOWN_VERSION, conflicts_with = "series")]

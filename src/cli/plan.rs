@@ -35,7 +35,7 @@ const SLOWER: f64 = 10.0;
 )]
 pub(super) struct Arguments {
     /// Code whose runs are planned: a name or a folder
-    #[arg(long, value_parser = CodeParser, value_name = "CODE")]
+    #[arg(long, alias = "codes", value_parser = CodeParser, value_name = "CODE")]
     code: Code,
     #[command(flatten)]
     stacks: StackSet,

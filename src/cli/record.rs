@@ -42,7 +42,7 @@ enum Set {
 #[command(after_help = "Example: tristack record --codes yade --fresh")]
 pub(super) struct Arguments {
     /// Codes to record, separated by commas; each must be installed [default: all external codes]
-    #[arg(long, value_parser = CodeParser, value_delimiter = ',', value_name = "C1,C2")]
+    #[arg(long, alias = "code", value_parser = CodeParser, value_delimiter = ',', value_name = "C1,C2")]
     codes: Vec<Code>,
     /// Record only the runs of this command and keep the others [default: replace all recorded runs]
     #[arg(long, value_enum, value_name = "COMMAND")]

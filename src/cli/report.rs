@@ -30,7 +30,7 @@ const MOST_ROWS: usize = 10;
 pub(super) struct Arguments {
     /// Codes to run besides native, separated by commas; each must be installed [default: all, recorded if
     /// necessary]
-    #[arg(long, value_parser = CodeParser, value_delimiter = ',', value_name = "C1,C2")]
+    #[arg(long, alias = "code", value_parser = CodeParser, value_delimiter = ',', value_name = "C1,C2")]
     codes: Vec<Code>,
     /// Also run all of figure 2(a) at the paper's literal wall speed and time step, for some ten minutes
     #[arg(long)]

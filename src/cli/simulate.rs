@@ -55,7 +55,7 @@ enum PreparationKind {
 #[command(group(ArgGroup::new("input").required(true).args(["case", "mu", "example"])))]
 pub(super) struct Arguments {
     /// Code that runs the case
-    #[arg(long, required_unless_present = "example", value_parser = CodeParser, value_name = "CODE")]
+    #[arg(long, alias = "codes", required_unless_present = "example", value_parser = CodeParser, value_name = "CODE")]
     code: Option<Code>,
     /// Print a case file with every key, its default and its meaning, and exit
     #[arg(long, exclusive = true)]

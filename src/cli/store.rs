@@ -93,7 +93,7 @@ struct Choice {
     #[arg(long, value_parser = kinds(), value_delimiter = ',', value_name = "K1,K2")]
     kind: Vec<EntryKind>,
     /// Entries of these codes, separated by commas
-    #[arg(long, value_delimiter = ',', value_name = "C1,C2")]
+    #[arg(long, alias = "codes", value_delimiter = ',', value_name = "C1,C2")]
     code: Vec<String>,
     /// Entries older than an age, such as 12h, 30d or 2w, or written before a date such as 2026-01-31 (UTC)
     #[arg(long, value_name = "AGE", value_parser = moment, allow_hyphen_values = true)]

@@ -32,7 +32,7 @@ const STACKS_AT_ONCE: usize = 2000;
 )]
 pub(super) struct Arguments {
     /// Code that runs the stacks
-    #[arg(long, value_parser = CodeParser, value_name = "CODE")]
+    #[arg(long, alias = "codes", value_parser = CodeParser, value_name = "CODE")]
     code: Code,
     #[command(flatten)]
     stack: StackListOptions,

@@ -18,6 +18,21 @@ fn table_shows_both_estimators() {
     assert_snapshot!(without_time(&standard_output(&mut bench.tristack(RUN))));
 }
 
+/// Every command takes either name of the option.
+#[test]
+fn codes_are_named_by_code_or_codes() {
+    let bench = Bench::without_codes();
+    let one = without_time(&standard_output(&mut bench.tristack(RUN)));
+    let other = RUN.replace("--code", "--codes");
+    assert_eq!(
+        without_time(&standard_output(&mut bench.tristack(&other))),
+        one
+    );
+    let [one, other] = ["--codes", "--code"]
+        .map(|option| standard_output(&mut bench.tristack(&format!("probe {option} native"))));
+    assert_eq!(one, other);
+}
+
 #[test]
 fn json_has_the_agreed_keys_and_the_same_numbers_everywhere() {
     let bench = Bench::without_codes();

@@ -12,7 +12,7 @@ use clap::Args;
 #[derive(Debug, Clone, Args)]
 pub(in crate::cli) struct CodeOptions {
     /// Codes to run, separated by commas; each must be installed [default: all, recorded if necessary]
-    #[arg(id = "codes", long = "codes", value_parser = CodeParser, value_delimiter = ',', value_name = "C1,C2")]
+    #[arg(id = "codes", long = "codes", alias = "code", value_parser = CodeParser, value_delimiter = ',', value_name = "C1,C2")]
     pub named: Vec<Code>,
 }
 

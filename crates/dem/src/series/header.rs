@@ -75,7 +75,10 @@ impl<R: Default> Header<R> {
             let text = field(*place).ok_or_else(|| format!("`{name}` is missing"))?;
             let number: Option<f64> = text.trim().parse().ok();
             if !number.is_some_and(|number| (column.set)(&mut row, factor * number)) {
-                return Err(format!("`{name}` is `{text}`, which is no number for it"));
+                let why = why_no_number(text);
+                return Err(format!(
+                    "`{name}` is `{text}`, which is no number for it{why}"
+                ));
             }
         }
         Ok(row)
@@ -84,6 +87,19 @@ impl<R: Default> Header<R> {
     /// Names of the columns that the file leaves out.
     pub fn absent(self) -> Vec<&'static str> {
         self.absent.iter().map(|column| column.name).collect()
+    }
+}
+
+/// Says why a text is no number, if it is what Fortran writes.
+fn why_no_number(text: &str) -> &'static str {
+    let text = text.trim();
+    let with_e = text.replace(['d', 'D'], "e");
+    if !text.is_empty() && text.bytes().all(|byte| byte == b'*') {
+        ": the number did not fit its format, which wants more digits"
+    } else if with_e != text && with_e.parse::<f64>().is_ok() {
+        ": an exponent is written with E, as 1.0E+03"
+    } else {
+        ""
     }
 }
 
@@ -133,4 +149,26 @@ pub(super) fn csv_rows<R: Default>(
         }
     }
     Ok((rows, header.absent()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_fortran_writes_is_named() {
+        for (text, named) in [
+            ("1.0D+03", ": an exponent is written with E, as 1.0E+03"),
+            ("-2.5d-1", ": an exponent is written with E, as 1.0E+03"),
+            (
+                "*****",
+                ": the number did not fit its format, which wants more digits",
+            ),
+            ("", ""),
+            ("abcd", ""),
+            ("1.0e+03", ""),
+        ] {
+            assert_eq!(why_no_number(text), named, "{text}");
+        }
+    }
 }

@@ -103,8 +103,8 @@ fn of_absent(failure: &Failure) -> Vec<String> {
     )]
 }
 
-/// Explains a wrong header of the series of a stack with this many bodies on the floor: columns that are missing, columns
-/// that are unknown, or a different order.
+/// Explains a wrong header of the series of a stack with this many bodies on the floor: columns that are missing, unknown, or
+/// there more than once.
 fn of_columns(found: &str, bodies: u8) -> Vec<String> {
     let expected = Sample::columns(bodies).iter().map(|column| column.name);
     let expected: Vec<&str> = expected.collect();
@@ -122,8 +122,16 @@ fn of_columns(found: &str, bodies: u8) -> Vec<String> {
         let usual = "or the first line holds no names, or another separator than a comma";
         causes.push(format!("columns are unknown, {usual}: {}", list(unknown)));
     }
-    if causes.is_empty() {
-        causes.push("the columns are there, but in another order".to_owned());
+    let count = |name: &str| found.iter().filter(|own| **own == name).count();
+    let repeated: Vec<&str> = expected
+        .into_iter()
+        .filter(|name| count(name) > 1)
+        .collect();
+    if !repeated.is_empty() {
+        causes.push(format!(
+            "columns are there more than once: {}",
+            list(repeated)
+        ));
     }
     causes
 }
@@ -257,4 +265,21 @@ fn of_explosion(step: u64, case: &Case) -> Vec<String> {
         ),
         "a division by 0, such as the normal of two centres at the same place".to_owned(),
     ]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_wrong_header_is_told_by_its_columns() {
+        let names: Vec<&str> = Sample::columns(2).iter().map(|own| own.name).collect();
+        let told = |header: &[&str]| of_columns(&header.join(","), 2);
+        assert_eq!(
+            told(&[&names[..], &["wall_force"]].concat()),
+            ["columns are there more than once: wall_force"]
+        );
+        assert_eq!(told(&names[1..]), ["columns are missing: step"]);
+        assert_eq!(told(&names), Vec::<String>::new());
+    }
 }

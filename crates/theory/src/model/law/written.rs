@@ -8,7 +8,11 @@ use serde::Deserialize;
 /// [`super::Law`] as a case file spells it.
 #[derive(Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[serde(default, deny_unknown_fields)]
+#[serde(
+    default,
+    deny_unknown_fields,
+    expecting = "a table of its numbers, such as { power = 1.5 } for Hertz contacts"
+)]
 pub(super) struct WrittenLaw {
     /// Exponent p of the normal force K δᵖ: 1 (linear), 1.25, 1.5 (Hertz), 1.75 or 2.
     pub(super) power: Power,

@@ -464,10 +464,10 @@ fn assert_not_judged<S, F>(judged: &[Judged<S, F>]) {
     assert_eq!(study.verdict(), Verdict::Inconclusive);
     assert!(study.grounds.is_contradicted());
     let notes = study.notes();
-    let last = notes.last().expect("the reason");
+    let first = notes.first().expect("the reason");
     assert!(
-        last.starts_with("not judged: its probe contradicts its declaration: "),
-        "{last}"
+        first.starts_with("not judged: its probe contradicts its declaration: "),
+        "{first}"
     );
 }
 
@@ -594,9 +594,9 @@ fn a_stiffness_that_grows_with_the_overlap_is_named() {
     ] {
         let judgement = crosscheck(mutation);
         let notes = judgement.notes();
-        let last = notes.last().expect("the reason");
+        let first = notes.first().expect("the reason");
         let reason = format!("not judged: its probe contradicts its declaration: {said}");
-        assert!(last.starts_with(&reason), "{mutation:?}: {last}");
+        assert!(first.starts_with(&reason), "{mutation:?}: {first}");
     }
 }
 

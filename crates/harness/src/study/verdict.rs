@@ -269,13 +269,16 @@ impl Grounds {
         }
     }
 
-    /// Notes that explain the verdict: first those of the grounds that decide it, last remarks.
+    /// Notes that explain the verdict: first why nothing can be judged, then those of the grounds that decide it, last
+    /// remarks.
     pub fn notes(&self) -> Vec<&str> {
         let (verdict, blur) = (self.verdict(), self.blur());
-        let rank = |ground: &&Ground| match ground.verdict(blur) {
-            Some(own) if own == verdict => 0,
-            Some(_) => 1,
-            None => 2,
+        let rank = |ground: &&Ground| match (ground, ground.verdict(blur)) {
+            (Ground::NotJudged { .. }, _) => 0,
+            (Ground::Undecidable(_), _) => 1,
+            (_, Some(own)) if own == verdict => 2,
+            (_, Some(_)) => 3,
+            (_, None) => 4,
         };
         let mut noted: Vec<&Ground> = self.0.iter().filter(|own| own.note().is_some()).collect();
         noted.sort_by_key(rank);
@@ -365,6 +368,13 @@ mod tests {
         ];
         let told = grounds(&notes);
         assert_eq!(told.notes(), ["a violation", "a doubt", "a remark"]);
+        let mut open = told;
+        open.add(Ground::NotJudged {
+            note: "not judged".to_owned(),
+            contradicted: false,
+        });
+        let notes = open.notes();
+        assert_eq!(notes, ["not judged", "a doubt", "a violation", "a remark"]);
     }
 
     #[test]

@@ -10,7 +10,9 @@ use crate::output::{json, passport_json, passport_markdown, probe, probe_by_code
 use crate::runs::SelectedCode;
 use crate::study::Verdict;
 use crate::study::atlas::NamedPassport;
-use crate::study::convention::{Finding, Passport, Probed, passport, probe_all, step_effects};
+use crate::study::convention::{
+    Finding, Passport, Probed, in_single_precision, passport, probe_all, step_effects,
+};
 use clap::Args;
 use std::path::{Path, PathBuf};
 
@@ -129,6 +131,9 @@ fn conclude(codes: &[SelectedCode], probed: &[Probed], findings: &[Finding]) -> 
         }
     }
     for (selected, result) in codes.iter().zip(probed) {
+        if let Some(told) = result.as_ref().ok().and_then(in_single_precision) {
+            tell!("{}: {told}", selected.name);
+        }
         let findings = result.iter().flat_map(|probe| &probe.findings);
         if let Some(effects) = step_effects(findings) {
             tell!("{}: {effects}", selected.name);

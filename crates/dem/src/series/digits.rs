@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 /// Number of digits at which rounding is far below every tolerance for micro-tests and trajectories.
 pub const ENOUGH_DIGITS: u32 = 13;
 /// Number of digits that reproduce any double exactly.
-const EXACT: u32 = 17;
+pub const EXACT_DIGITS: u32 = 17;
 /// Rows after the peak from which the friction is read.
 const ROWS_AFTER_PEAK: usize = 4;
 /// The force columns, on which the yield force depends.
@@ -59,8 +59,8 @@ pub struct PrintedDigits {
 
 impl PrintedDigits {
     const IN_FULL: Self = Self {
-        digits: EXACT,
-        finest: EXACT,
+        digits: EXACT_DIGITS,
+        finest: EXACT_DIGITS,
         half_unit: 0.0,
     };
 
@@ -81,7 +81,7 @@ impl PrintedDigits {
             finest: left.finest.max(right.finest),
             half_unit: left.half_unit.max(right.half_unit),
         })?;
-        (coarsest.digits < EXACT).then_some(Self {
+        (coarsest.digits < EXACT_DIGITS).then_some(Self {
             half_unit: coarsest.half_unit * stiffness,
             ..coarsest
         })
@@ -93,7 +93,7 @@ pub fn most_digits(values: impl Iterator<Item = f64>) -> u32 {
     let mut most = 0;
     for value in values.filter(|value| *value != 0.0) {
         most = most.max(decimal(value).0);
-        if most >= EXACT {
+        if most >= EXACT_DIGITS {
             break;
         }
     }
@@ -106,7 +106,7 @@ fn precision(values: impl Iterator<Item = f64>) -> Option<PrintedDigits> {
     // A value that is not reported is NaN.
     for value in values.filter(|value| *value != 0.0 && !value.is_nan()) {
         let (own, exponent) = decimal(value);
-        if own >= EXACT {
+        if own >= EXACT_DIGITS {
             return Some(PrintedDigits::IN_FULL);
         }
         digits = digits.max(own);
@@ -122,7 +122,7 @@ fn precision(values: impl Iterator<Item = f64>) -> Option<PrintedDigits> {
 
 /// Returns the number of significant digits of the shortest decimal that reproduces `value`, and the exponent of the
 /// first digit.
-fn decimal(value: f64) -> (u32, i32) {
+pub fn decimal(value: f64) -> (u32, i32) {
     let text = format!("{value:e}");
     let (mantissa, exponent) = text.split_once('e').unwrap_or((&text, "0"));
     let digits = mantissa.chars().filter(char::is_ascii_digit).count();

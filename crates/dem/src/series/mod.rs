@@ -21,7 +21,7 @@ mod summary;
 
 pub use column::Column;
 pub use digits::PrintedDigits;
-pub use digits::{ENOUGH_DIGITS, most_digits};
+pub use digits::{ENOUGH_DIGITS, EXACT_DIGITS, decimal, most_digits};
 pub use drop::DropWatch;
 pub use estimate::{Departure, Estimate, YieldEstimates};
 pub use frame::{ContactPoint, Frame, Frames, Partner, PlacedBody};

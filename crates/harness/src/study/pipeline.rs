@@ -1,8 +1,8 @@
 //! The pipeline of every study: plan runs, carry them out or take recorded ones, evaluate them, derive the verdict.
 
 use super::convention::{
-    Probed, arms_are_measured, contradictions, forces_are_late, is_contradicted, other_program,
-    probe_all, settled_by, step_effects,
+    Probed, arms_are_measured, contradictions, forces_are_late, in_single_precision,
+    is_contradicted, other_program, probe_all, settled_by, step_effects,
 };
 use super::verdict::{Ground, Grounds, Verdict};
 use crate::code::{Code, Identity, InstalledCode, SettledCode, Unknown};
@@ -330,6 +330,10 @@ impl Grounds {
         if probed.as_ref().is_ok_and(forces_are_late) {
             self.allow_late_forces();
         }
+        let single = probed.as_ref().ok().and_then(in_single_precision);
+        single
+            .into_iter()
+            .for_each(|told| self.add(Ground::Remark(told)));
         let mut contradictions = contradictions(probed);
         contradictions.extend(other_program(probed, identities.iter()));
         let Some(first) = contradictions.first() else {

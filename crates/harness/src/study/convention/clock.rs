@@ -1,6 +1,6 @@
 //! Mass, moment of inertia, and the times to which reported velocities and the forces in a step belong.
 
-use super::finding::{FORCE_LAG, Property, StepEffect, TOLERANCE};
+use super::finding::{FORCE_LAG, Property, StepEffect, TOLERANCE, VELOCITY_LAG};
 use super::regression::{Measured, fit};
 use crate::code::Declaration;
 use crate::model::ContactTest;
@@ -101,7 +101,7 @@ impl Clock {
         let mut properties = vec![
             Property::new("mass", self.mass, 1.0),
             Property::new("moment_of_inertia", self.moment_of_inertia, inertia),
-            Property::new("velocity_lag", self.velocity_lag, declared.velocity_lag),
+            Property::new(VELOCITY_LAG, self.velocity_lag, declared.velocity_lag),
         ];
         // Nobody declares it: it is an error of the scheme that vanishes with the step.
         properties.extend(self.force_lag.map(|lag| Property {

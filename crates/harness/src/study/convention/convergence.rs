@@ -7,6 +7,7 @@
 use super::finding::{NEAR_A_RULE, Property, StepEffect, TOLERANCE};
 use super::probe::{measure, with_one_radius, without_consequences};
 use super::regression::Measured;
+use super::rounding::Rounding;
 use crate::code::Declaration;
 use crate::model::ContactTest;
 use crate::series::{ENOUGH_DIGITS, Motion};
@@ -46,21 +47,24 @@ pub fn converged<E>(
     mut run: impl FnMut(&[ContactTest]) -> Result<Vec<Motion>, E>,
     ends_refinement: impl Fn(&E) -> bool,
 ) -> Result<Vec<Property>, E> {
-    let mut digits = 0;
+    let mut motions = Vec::new();
     let first = measure(declared, 1, 1, |tests| {
-        let motions = run(tests)?;
-        digits = motions
-            .iter()
-            .map(Motion::most_digits)
-            .fold(digits, u32::max);
-        Ok(motions)
+        let own = run(tests)?;
+        motions.push(own.clone());
+        Ok(own)
     })?;
-    let first = with_one_radius(first);
+    let mut first = with_one_radius(first);
+    let rounding = Rounding::of(&motions);
+    rounding.widen(&mut first, &motions, |rounded| {
+        let mut rounds = rounded.iter();
+        let read = measure(declared, 1, 1, |_| rounds.next().cloned().ok_or(()));
+        read.unwrap_or_default()
+    });
     let mut found = first.clone();
     let mut levels: Vec<Vec<Property>> = Vec::new();
     for divisor in DIVISORS {
         // Rounding to few digits does not vanish with the step.
-        if digits < ENOUGH_DIGITS || !found.iter().any(is_open) {
+        if rounding.digits < ENOUGH_DIGITS || rounding.is_single() || !found.iter().any(is_open) {
             break;
         }
         match measure(declared, divisor, GRAIN * divisor, &mut run) {

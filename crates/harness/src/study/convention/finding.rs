@@ -40,6 +40,9 @@ pub const TANGENTIAL_DAMPING_EXPONENT: &str = "tangential_damping_exponent";
 pub const OVERLAP_LEAD: &str = "overlap_lead";
 pub const DAMPING_VELOCITY_LAG: &str = "damping_velocity_lag";
 
+/// Name of the steps by which reported velocities lag behind reported positions.
+pub const VELOCITY_LAG: &str = "velocity_lag";
+
 /// Name of the steps by which the forces that move the bodies lag behind the positions.
 pub const FORCE_LAG: &str = "force_lag";
 

@@ -3,6 +3,7 @@
 use super::convergence::converged;
 use super::finding::{FORCE_LAG, Finding, TOLERANCE};
 use super::micro_tests::MicroTests;
+use super::rounding::Rounding;
 use super::settled::settled;
 use crate::code::{Code, ConventionKey, Declaration, Identity, Provenance, Settled, TaskKind};
 use crate::model::ContactTest;
@@ -58,6 +59,8 @@ pub struct Findings {
     pub measured: Settled,
     /// The number of digits with which it has printed the motions, if too few to contradict a declaration.
     pub few_digits: Option<u32>,
+    /// The quantities of its motions that are in single precision.
+    pub single: Vec<&'static str>,
 }
 
 /// The findings on one selected code, or why there are none.
@@ -127,12 +130,10 @@ pub fn read_probe(code: &Code, record: ProbeRecord) -> Probed {
     let measured = settled(&nothing, &properties);
     let settled = settled(&declaration, &properties);
     let version = &record.provenance.identity.version;
-    let digits = record
-        .answers
-        .iter()
-        .map(|answer| answer.motion.most_digits());
+    let motions = record.answers.iter().map(|answer| answer.motion.clone());
     // The longest numbers count: some motions are so simple that their numbers are short.
-    let few_digits = digits.max().filter(|digits| *digits < ENOUGH_DIGITS);
+    let rounding = Rounding::of(&[motions.collect()]);
+    let few_digits = Some(rounding.digits).filter(|digits| *digits < ENOUGH_DIGITS);
     let properties = properties.into_iter();
     let findings = properties.map(|property| {
         let finding = property.judge(code, version);
@@ -147,6 +148,7 @@ pub fn read_probe(code: &Code, record: ProbeRecord) -> Probed {
         measured,
         provenance: record.provenance,
         few_digits,
+        single: rounding.single_quantities(),
     })
 }
 
@@ -183,6 +185,18 @@ pub fn forces_are_late(probe: &Findings) -> bool {
     let mut findings = probe.findings.iter();
     let lag = findings.find(|own| own.property == FORCE_LAG);
     lag.and_then(|own| own.measured).is_some_and(late)
+}
+
+/// Says which quantities of the motions are in single precision, if any is.
+pub fn in_single_precision(probe: &Findings) -> Option<String> {
+    let (last, others) = probe.single.split_last()?;
+    let listed = match others {
+        [] => (*last).to_owned(),
+        _ => format!("{} and {last}", others.join(", ")),
+    };
+    Some(format!(
+        "single precision: the {listed} of its micro-tests are numbers of 32 bits"
+    ))
 }
 
 /// Names the first of the programs whose runs a probe of another program must not vouch for, if there is one.
@@ -287,6 +301,7 @@ mod tests {
             measured: SettledCode::native().settled().clone(),
             findings: verdicts.iter().map(finding).collect(),
             few_digits: None,
+            single: Vec::new(),
         })
     }
 
@@ -330,17 +345,15 @@ mod tests {
 
     /// A motion with every number rounded to this many `decimals` in scientific notation.
     fn rounded(motion: &Motion, decimals: usize) -> Motion {
-        let round = |row: &MotionRow| {
-            let mut row = serde_json::to_value(row).unwrap();
-            for (name, value) in row.as_object_mut().unwrap() {
-                if name != "step" && name != "space" {
-                    let text = format!("{:.decimals$e}", value.as_f64().unwrap());
-                    *value = text.parse::<f64>().unwrap().into();
-                }
+        let rows = motion.rows().iter().map(|row| {
+            let mut own = *row;
+            for column in MotionRow::columns(true).iter().skip(1) {
+                let text = format!("{:.decimals$e}", (column.value)(row));
+                (column.set)(&mut own, text.parse().unwrap());
             }
-            serde_json::from_value(row).unwrap()
-        };
-        let rows: Vec<MotionRow> = motion.rows().iter().map(round).collect();
+            own
+        });
+        let rows: Vec<MotionRow> = rows.collect();
         let steps = rows.len() as u64 - 1;
         Motion::new(rows, steps).unwrap()
     }

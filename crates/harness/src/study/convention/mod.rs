@@ -24,6 +24,7 @@ mod power;
 mod probe;
 mod properties;
 mod regression;
+mod rounding;
 mod settle;
 mod settled;
 mod shape;
@@ -35,6 +36,7 @@ mod tangential;
 pub(crate) use convergence::{VANISHING, converged};
 pub(crate) use finding::{DAMPING_VELOCITY_LAG, FORCE_LAG, OVERLAP_LEAD};
 pub use finding::{Finding, StepEffect, TOLERANCE, step_effects};
+pub use measured::in_single_precision;
 pub use measured::{
     Findings, ProbeError, Probed, contradictions, probe_all, probe_records, read_probe,
 };

@@ -194,7 +194,7 @@ pub fn tangential_properties(
     };
     let turns = (kind == ContactKind::Pair).then_some((HISTORY_UPDATE, law.transport, update));
     let none = is_fixed.then(|| match law.transport.uncertainty.is_finite() {
-        true => Measured::new(0.0, 0.0),
+        true => Measured::new(0.0, law.unseen_share),
         false => Measured::UNKNOWN,
     });
     let left_behind = law

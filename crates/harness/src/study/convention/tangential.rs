@@ -49,6 +49,8 @@ pub struct TangentialLaw {
     /// Share of its normal component that the spring keeps when the contact turns, if it is seen
     /// ([`Form::left_behind`]).
     pub left_behind: Option<Measured>,
+    /// Uncertainty of that share where it is not seen: infinite if it was not looked for.
+    pub unseen_share: f64,
     /// Whether the normal force contains the normal component of a spring that is left behind.
     exerts_lift: bool,
     /// The form of the best fit.
@@ -143,7 +145,10 @@ impl TangentialLaw {
                 left_behind: Some(left_behind),
                 ..law
             },
-            false => self,
+            false => Self {
+                unseen_share: left_behind.value.abs() + left_behind.uncertainty,
+                ..self
+            },
         }
     }
 
@@ -242,6 +247,7 @@ impl TangentialLaw {
             damping_arm: found[DAMPING_SPIN_OVERLAP].over(found[DAMPING]),
             transport: Measured::new(0.0, 0.0),
             left_behind: None,
+            unseen_share: f64::INFINITY,
             exerts_lift: true,
         }
         .with_common_radius()

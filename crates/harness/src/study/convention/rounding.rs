@@ -158,7 +158,7 @@ impl Rounding {
                 libm::exp10(f64::from(place))
             }
         };
-        let single = match self.single.contains(&unit) {
+        let single = match self.single.contains(&unit) && survives(value) {
             true => value.abs() * f64::from(f32::EPSILON),
             false => 0.0,
         };
@@ -208,19 +208,26 @@ fn values(motions: &[Vec<Motion>]) -> impl Iterator<Item = f64> {
     all.filter(|value| *value != 0.0)
 }
 
-/// Whether all numbers in this `unit` are those of single precision, or print like them.
+/// Whether most numbers in this `unit` are those of single precision. Places that the task gives, at the beginning and in
+/// motions that it prescribes, are not.
 fn is_single(motions: &[Vec<Motion>], unit: &str) -> bool {
-    let mut telling = 0;
+    let (mut single, mut double) = (0, 0);
     for row in motions.iter().flatten().flat_map(Motion::rows) {
         for column in columns().filter(|column| column.unit == unit) {
             let value = (column.value)(row);
-            if f64::from(value as f32) != value {
-                return false;
+            match survives(value) {
+                // A short number survives in any case.
+                true => single += usize::from(value != 0.0 && decimal(value).0 > TELLING_DIGITS),
+                false => double += 1,
             }
-            telling += usize::from(decimal(value).0 > TELLING_DIGITS);
         }
     }
-    telling >= TELLING
+    single >= TELLING && single >= double
+}
+
+/// Whether a number is one of single precision.
+fn survives(value: f64) -> bool {
+    f64::from(value as f32) == value
 }
 
 #[cfg(test)]

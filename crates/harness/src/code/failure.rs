@@ -30,7 +30,7 @@ pub enum FailureKind {
     Ended(ExitStatus),
     #[error("the program delivered no series for this case and went on")]
     Skipped,
-    #[error("no series after {0:?}; it was stopped, and --time-limit gives it more seconds")]
+    #[error("no series after {0:?}; it was stopped (--time-limit allows more seconds)")]
     TimedOut(Duration),
     #[error("interrupted")]
     Interrupted,

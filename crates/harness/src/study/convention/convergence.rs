@@ -54,7 +54,7 @@ pub fn converged<E>(
         Ok(own)
     })?;
     let mut first = with_one_radius(first);
-    let rounding = Rounding::of(&motions);
+    let rounding = Rounding::of(&motions.iter().flatten().collect::<Vec<_>>());
     rounding.widen(&mut first, &motions, |rounded| {
         let mut rounds = rounded.iter();
         let read = measure(declared, 1, 1, |_| rounds.next().cloned().ok_or(()));

@@ -130,9 +130,9 @@ pub fn read_probe(code: &Code, record: ProbeRecord) -> Probed {
     let measured = settled(&nothing, &properties);
     let settled = settled(&declaration, &properties);
     let version = &record.provenance.identity.version;
-    let motions = record.answers.iter().map(|answer| answer.motion.clone());
+    let motions = record.answers.iter().map(|answer| &answer.motion);
     // The longest numbers count: some motions are so simple that their numbers are short.
-    let rounding = Rounding::of(&[motions.collect()]);
+    let rounding = Rounding::of(&motions.collect::<Vec<_>>());
     let few_digits = Some(rounding.digits).filter(|digits| *digits < ENOUGH_DIGITS);
     let properties = properties.into_iter();
     let findings = properties.map(|property| {
@@ -268,12 +268,13 @@ fn contradiction(finding: &Finding) -> String {
 #[cfg(test)]
 mod tests {
     use super::super::probe::probe;
+    use super::super::rounding::with_numbers;
     use super::*;
     use crate::code::Provenance;
     use crate::code::SettledCode;
     use crate::dem::run_contact_test;
     use crate::runs::Answer;
-    use crate::series::{Motion, MotionRow};
+    use crate::series::Motion;
 
     fn probed(verdicts: &[Verdict]) -> Probed {
         let finding = |&verdict: &Verdict| Finding {
@@ -345,17 +346,10 @@ mod tests {
 
     /// A motion with every number rounded to this many `decimals` in scientific notation.
     fn rounded(motion: &Motion, decimals: usize) -> Motion {
-        let rows = motion.rows().iter().map(|row| {
-            let mut own = *row;
-            for column in MotionRow::columns(true).iter().skip(1) {
-                let text = format!("{:.decimals$e}", (column.value)(row));
-                (column.set)(&mut own, text.parse().unwrap());
-            }
-            own
-        });
-        let rows: Vec<MotionRow> = rows.collect();
-        let steps = rows.len() as u64 - 1;
-        Motion::new(rows, steps).unwrap()
+        with_numbers(motion, |_, value| {
+            let text = format!("{value:.decimals$e}");
+            text.parse().unwrap()
+        })
     }
 
     /// The probe of a code that is as declared and prints this many `digits`.

@@ -28,8 +28,6 @@ const REPORTED: [&str; 7] = [
 /// Number of micro-tests that agree to the last digits only if the code has the integrator of the twin.
 const MANY_EXACT: usize = 5;
 
-const STEP_BY_STEP: &str = "micro-tests step by step";
-
 /// Returns the items on the `series` of `case`, and on the micro-tests if there are any. Failed items are explained
 /// by the mistake that explains all of them, else by a gross mistake or the equations that fail, else by their own
 /// causes, else by the usual ones. `run` carries out another case with the code.
@@ -43,8 +41,7 @@ pub(super) fn items(
     let conventions = micro.map_or_else(|| vec![case.convention], Micro::conventions);
     let convention = conventions.last().copied().unwrap_or(case.convention);
     let known = Known::of(series, case, micro, convention);
-    let depends_on_step = of_micro.iter().any(micro::is_step_effect)
-        && !of_micro.iter().any(|item| item.outcome == Outcome::Failed);
+    let depends_on_step = micro.is_some_and(Micro::depends_on_step);
     let finer = || {
         let mut fine = *case;
         fine.protocol.time_step *= 0.5;
@@ -57,7 +54,7 @@ pub(super) fn items(
     };
     let mut items = stack::items(series, case, &known.stacks, &scheme);
     items.extend(of_micro);
-    items.extend(known.item(depends_on_step));
+    items.extend(known.item());
     if !items.iter().any(is_to_be_explained) {
         return items;
     }
@@ -216,7 +213,8 @@ impl Known {
             .iter()
             .filter(|own| own.before < SAME_MOTION)
             .count();
-        let is_exact = exact >= MANY_EXACT;
+        // Some motions may be the same although the integrator is not.
+        let is_exact = exact >= MANY_EXACT && !micro.is_some_and(Micro::depends_on_step);
         let is_wrong = micro.is_some_and(|micro| micro.items().iter().any(is_to_be_explained));
         let mut stacks = vec![Evidence::of_stack(series, case, convention, false)];
         if is_exact {
@@ -234,27 +232,16 @@ impl Known {
         }
     }
 
-    /// Returns the item on micro-tests that differ from the twin, although others agree with it to the last digits. In a
-    /// code whose parameters are as asked at vanishing time step alone, that is no mistake.
-    fn item(&self, depends_on_step: bool) -> Option<Item> {
+    /// Returns the item on micro-tests that differ from the twin, although others agree with it to the last digits.
+    fn item(&self) -> Option<Item> {
         let off = self
             .motions
             .first()
             .filter(|own| own.is_off() && own.same < SAME)?;
         let (name, step, found, expected) = off.first_off();
-        if depends_on_step {
-            return Some(Item::remark(
-                Grade::Consistency,
-                STEP_BY_STEP,
-                format!(
-                    "{name} is {found:.9} at step {step} of a micro-test, and {expected:.9} in the native DEM with that time \
-                     step; other micro-tests agree to the last digits"
-                ),
-            ));
-        }
         Some(Item::failed(
             Grade::Consistency,
-            STEP_BY_STEP,
+            "micro-tests step by step",
             format!(
                 "{name} {expected:.9} at step {step} of a micro-test (native DEM, same convention)"
             ),

@@ -76,6 +76,13 @@ impl Micro {
         forces_are_late(&self.findings)
     }
 
+    /// Whether the code is as asked at vanishing time step alone.
+    pub fn depends_on_step(&self) -> bool {
+        let items = self.items();
+        let fails = items.iter().any(|item| item.outcome == Outcome::Failed);
+        !fails && items.iter().any(is_step_effect)
+    }
+
     /// Whether a property deviates from its declaration.
     fn deviates(&self, own: &Finding) -> bool {
         let (Some(found), Some(declared)) = (own.measured, own.declared) else {

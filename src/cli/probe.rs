@@ -4,6 +4,7 @@ use super::options::{CodeOptions, Format, RunOptions, selected_codes};
 use super::out::{Out, write};
 use super::progress::Reporter;
 use super::{CliError, ExitStatus, INTERRUPT, complain, tell};
+use crate::code::Settled;
 use crate::files::{FileError, Layout};
 use crate::model::shown;
 use crate::output::{json, passport_json, passport_markdown, probe, probe_by_code};
@@ -132,6 +133,10 @@ fn conclude(codes: &[SelectedCode], probed: &[Probed], findings: &[Finding]) -> 
     }
     for (selected, result) in codes.iter().zip(probed) {
         if let Some(told) = result.as_ref().ok().and_then(in_single_precision) {
+            tell!("{}: {told}", selected.name);
+        }
+        let measured = result.iter().map(|probe| &probe.measured);
+        for told in measured.flat_map(Settled::contact_points) {
             tell!("{}: {told}", selected.name);
         }
         let findings = result.iter().flat_map(|probe| &probe.findings);

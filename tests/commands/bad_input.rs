@@ -61,8 +61,8 @@ fn flags_with_bad_values_are_named_with_what_would_be_accepted() {
             ["--kappa", "0", "above 0"],
         ),
         (
-            "theory --mu 0.3 --stiffness 100 --pair-arm 7",
-            ["--pair-arm", "7", "from -1 to 1"],
+            "theory --mu 0.3 --stiffness 100 --pair-arm 700",
+            ["--pair-arm", "700", "from -100 to 100"],
         ),
         (
             "simulate --code native --mu 0.3 --stiffness 100 --dt 0.9",

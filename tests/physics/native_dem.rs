@@ -210,6 +210,40 @@ fn onset_with_a_spring_that_nothing_turns_is_the_limit() {
     }
 }
 
+/// Contact points many overlaps inside and outside of the bodies, where levers are from a tenth of the radius to nine of it.
+/// Springs on long levers need shorter time steps.
+#[test]
+fn onset_with_contact_points_far_from_the_surfaces_is_the_limit() {
+    let usual_step = plan(
+        &SettledCode::native(),
+        &Stack::paper(0.3, 1e2),
+        ContactConvention::TURNING,
+    )
+    .cases[0]
+        .protocol
+        .time_step;
+    for (mu, pair, floor, needs_shorter_steps) in [
+        (0.3, 0.0, -1.5, false),
+        (0.3, -8.0, -8.0, false),
+        (0.4, 10.0, -10.0, false),
+        (0.35, 30.0, 30.0, true),
+    ] {
+        let convention = ContactConvention::with_arms(Arms::reciprocal(pair, floor));
+        let stack = Stack::paper(mu, 1e2);
+        let measurement = plan(&SettledCode::native(), &stack, convention);
+        let time_step = measurement.cases[0].protocol.time_step;
+        assert_eq!(
+            time_step < usual_step,
+            needs_shorter_steps,
+            "{pair} {floor}"
+        );
+        let [at_rest, _] = onset_and_peak(&measurement);
+        let exact = measurement.limit.slip_onset.unwrap();
+        let apart = (at_rest - exact).abs() / (exact + 3.0);
+        assert!(apart < 1e-6, "{pair} {floor}: {at_rest} {exact} {apart:e}");
+    }
+}
+
 /// What a wall speed adds to onset and peak, per speed, by the slower two of three speeds, with short time steps and rows.
 fn added_per_speed(measurement: &Measurement) -> [f64; 2] {
     let mut finer = measurement.clone();

@@ -4,7 +4,7 @@ use super::number::{digits, friction, one_digit, relative, small};
 use super::table::{Columns, DataTable};
 use super::text::{markdown_code, markdown_notes};
 use crate::code::Code;
-use crate::model::PAPER_BODIES;
+use crate::model::{ContactArms, PAPER_BODIES};
 use crate::study::yield_force::{Budget, ConvergenceOrder, Evidence, Extrapolation, Judgement};
 use crate::study::{MAX_TOLERANCE, MIN_TOLERANCE, Source, Verdict};
 
@@ -26,7 +26,7 @@ pub fn crosscheck(judgements: &[Judgement]) -> DataTable<'_> {
     .source(|row| row.source)
     .shown("source")
     .dispensable(1)
-    .convention(|row| row.study.convention)
+    .convention(|row| Some(row.known_convention()))
     .law(|row| row.study.convention.law)
     .number("yield_force", "m g", |row| row.yield_force())
     .means(
@@ -50,7 +50,7 @@ pub fn crosscheck(judgements: &[Judgement]) -> DataTable<'_> {
         Some(row.slip()?.budget.total())
     })
     .means("its numerical uncertainty")
-    .number("reference_onset", "m g", |row| row.study.limit.slip_onset)
+    .number("reference_onset", "m g", |row| row.reference_onset())
     .means("the onset by theory; below reference_force where contact 2–3 is closed then")
     .number("peak_force", "m g", |row| Some(row.peak()?.0))
     .means("the largest F, at vanishing wall speed")
@@ -318,11 +318,26 @@ fn codes(judgements: &[Judgement]) -> DataTable<'_> {
         .shown("version")
         .source(|row| row.source)
         .shown("source")
-        .right("pair arm", |row| row.study.convention.arms.pair.to_string())
+        .right("pair arm", |row| {
+            shown_arms(row.known_convention().arms.pair)
+        })
         .right("floor arm", |row| {
-            row.study.convention.arms.floor.to_string()
+            shown_arms(row.known_convention().arms.floor)
         })
         .left("evidence", |row| Evidence::of(row).as_str().to_owned())
         .dispensable(1)
         .rows(rows)
+}
+
+/// Formats the arms of one kind of contact, as far as they are known.
+pub(super) fn shown_arms(arms: ContactArms<Option<f64>>) -> String {
+    if let (Some(torque), Some(kinematic)) = (arms.torque, arms.kinematic) {
+        return ContactArms { torque, kinematic }.to_string();
+    }
+    let [torque, kinematic] = [arms.torque, arms.kinematic]
+        .map(|arm| arm.map_or_else(|| "unknown".to_owned(), |arm| arm.to_string()));
+    match torque == kinematic {
+        true => torque,
+        false => format!("{torque} (kinematic {kinematic})"),
+    }
 }

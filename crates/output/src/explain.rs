@@ -1,5 +1,6 @@
 //! The explanation of one row: every step from its runs to its verdict.
 
+use super::crosscheck::shown_arms;
 use super::explained::{explained_runs, origin_of_arms};
 use super::number::{digits, friction, optional, relative, significant};
 use super::table::Columns;
@@ -40,7 +41,7 @@ pub fn explanation(
 }
 
 fn reference(row: &Judgement) -> String {
-    let arms = row.study.convention.arms;
+    let arms = row.known_convention().arms;
     let limit = &row.study.limit;
     let text = format!(
         "{} {} ({}): mu = {}, stiffness k_n r/(m g) = {}, kappa = {}, mu_d = {}\n\n\
@@ -54,8 +55,8 @@ fn reference(row: &Judgement) -> String {
         row.stiffness(),
         exact(row.study.stack.stiffness_ratio),
         exact(row.study.stack.cylinder_friction),
-        arms.pair,
-        arms.floor,
+        shown_arms(arms.pair),
+        shown_arms(arms.floor),
         match origin_of_arms(row) {
             "declared" => "declared".to_owned(),
             measured => format!("{measured}: tristack probe"),

@@ -22,7 +22,7 @@ pub fn impacts(judgements: &[ImpactJudgement]) -> DataTable<'_> {
     .code(|row| &row.code)
     .version(|row| &row.version)
     .source(|row| row.source)
-    .convention(|row| row.study.impact.convention)
+    .convention(|row| Some(row.study.impact.convention.into()))
     .law(|row| row.study.impact.convention.law)
     .number("kappa", "1", |row| row.study.impact.stiffness_ratio)
     .means("stiffness ratio κ = k_n/k_t of pairs")

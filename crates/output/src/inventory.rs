@@ -38,7 +38,7 @@ pub fn inventory(codes: &[SelectedCode]) -> DataTable<'static> {
     .means("distribution package and its version")
     .shown("package")
     .dispensable(2)
-    .convention(|(code, _)| code.as_declared().map(|code| code.convention()))
+    .convention(|(code, _)| Some(code.as_declared()?.convention().into()))
     .right("pair arm", |(code, _)| arms(code, |arms| arms.pair))
     .right("floor arm", |(code, _)| arms(code, |arms| arms.floor))
     .text("deck_hash", |(code, _)| code.files_hash(TaskKind::Stack))

@@ -17,7 +17,7 @@ fn verdict(judged: Option<&JudgedSeries>) -> DataTable<'_> {
         "`tristack judge --series` (judged_series.csv)",
     )
     .stack(|row| row.measurement.stack)
-    .convention(|row| row.measurement.convention)
+    .convention(|row| Some(row.measurement.convention.into()))
     .number("slip_onset", "m g", |row| Some(row.finding.slip?.force))
     .means("F at which the floor begins to slip, at vanishing wall speed: extrapolated, or less what theory expects of the speed")
     .shown_as("slip onset", digits::<9>)

@@ -1,9 +1,10 @@
 //! Effect of the contact law on the yield force: the styles of all codes side by side, for one material.
 
+use super::crosscheck::shown_arms;
 use super::number::{digits, friction_in_tex, rounded, small};
 use super::table::{Columns, DataTable, Table};
 use super::text::markdown_code;
-use crate::model::{ContactConvention, TangentialStiffening};
+use crate::model::TangentialStiffening;
 use crate::study::Verdict;
 use crate::study::yield_force::Judgement;
 
@@ -58,7 +59,7 @@ fn styles(judgements: &[Judgement]) -> Vec<&Judgement> {
 
 /// Returns the table of contact conventions, one row per style.
 pub fn law_conventions(judgements: &[Judgement]) -> DataTable<'_> {
-    let convention = |row: &&Judgement| -> ContactConvention { row.study.convention };
+    let law = |row: &&Judgement| row.study.convention.law;
     Columns::<&Judgement>::new(
         "laws",
         "A row is what one style of a code means by a contact.",
@@ -68,21 +69,23 @@ pub fn law_conventions(judgements: &[Judgement]) -> DataTable<'_> {
     .text("style", |row| row.code.label())
     .means("the style in words")
     .shown("style")
-    .law(move |row| convention(row).law)
+    .law(law)
     .again("history")
     .shown("springs remember")
     .again("floor_ratio")
     .shown_as("floor $K$ / pair $K$", digits::<4>)
     .again("tangential_stiffening")
     .shown("$k_t$ times 2/(2 − overlap)")
-    .cell(move |row| match convention(row).law.tangential_stiffening {
+    .cell(move |row| match law(row).tangential_stiffening {
         TangentialStiffening::None => "-".to_owned(),
         contacts => contacts.as_str().to_owned(),
     })
-    .convention(convention)
-    .right("pair arm", move |row| convention(row).arms.pair.to_string())
-    .right("floor arm", move |row| {
-        convention(row).arms.floor.to_string()
+    .convention(|row| Some(row.known_convention()))
+    .right("pair arm", |row| {
+        shown_arms(row.known_convention().arms.pair)
+    })
+    .right("floor arm", |row| {
+        shown_arms(row.known_convention().arms.floor)
     })
     .rows(styles(judgements))
 }

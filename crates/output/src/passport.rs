@@ -187,6 +187,10 @@ pub fn passport_markdown(passport: &Passport, command: &str) -> String {
         twins(passport),
         measured_convention(&passport.convention).shown().markdown()
     );
+    let points = findings.measured.contact_points();
+    if !points.is_empty() {
+        page += &format!("\nWith these arms {}.\n", points.join("; "));
+    }
     for effect in passport.time_step_effects() {
         page += &format!(
             "\nIts steps: {}. Arms are those of short steps.\n",

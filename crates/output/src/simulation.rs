@@ -104,7 +104,7 @@ fn subject<'a>() -> Columns<'a, Row<'a>> {
         .version(|(run, ..)| &run.provenance.identity.version)
         .shown("version")
         .stack(|(run, ..)| run.case.stack)
-        .convention(|(run, ..)| run.case.convention)
+        .convention(|(run, ..)| Some(run.case.convention.into()))
 }
 
 /// Adds the columns of the contact convention beyond the arms.

@@ -42,7 +42,10 @@ pub fn trajectories(judgements: &[TrajectoryJudgement]) -> DataTable<'_> {
     .version(|(judgement, _)| &judgement.version)
     .source(|(judgement, _)| judgement.source)
     .stack(|(judgement, _)| judgement.study.stack)
-    .convention(|(judgement, _)| judgement.study.code.convention())
+    .convention(|(judgement, _)| {
+        let code = &judgement.study.code;
+        Some(code.settled().known(&code.convention()))
+    })
     .text("twin", |row| Some(compared(row)?.twin.as_str()))
     .means("what the twin has of the convention of the code")
     .text("quantity", |row| Some(compared(row)?.quantity.as_str()))

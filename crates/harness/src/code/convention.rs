@@ -1,6 +1,6 @@
 //! The convention of a code: the keys that its manifest declares, and those that a probe settles.
 
-use crate::model::{Arms, ContactConvention};
+use crate::model::{Arms, ContactArms, ContactConvention, HistoryUpdate};
 use toml::de::DeTable;
 
 /// A key of a manifest on the convention of a code. Where the manifest leaves it out, the probe measures it.
@@ -175,6 +175,24 @@ pub struct Settled {
     pub unknown: Vec<Unknown>,
 }
 
+/// The part of a convention that moves the quasi-static limit, as far as it is known.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct KnownConvention {
+    /// Arm coefficients.
+    pub arms: Arms<Option<f64>>,
+    /// Spring of a turning contact.
+    pub history_update: Option<HistoryUpdate>,
+}
+
+impl From<ContactConvention> for KnownConvention {
+    fn from(convention: ContactConvention) -> Self {
+        Self {
+            arms: convention.arms.map(Some),
+            history_update: Some(convention.history_update),
+        }
+    }
+}
+
 /// A key that a manifest leaves out and no probe decides.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Unknown {
@@ -260,11 +278,79 @@ impl Settled {
         !self.unknown.iter().any(|own| own.moves_limit)
     }
 
+    /// Returns what is known of `convention`, under which runs of the code were made.
+    pub fn known(&self, convention: &ContactConvention) -> KnownConvention {
+        let if_known = |key: ConventionKey| {
+            let arm = key.arm(&convention.arms)?;
+            self.reason(key).is_none().then_some(arm)
+        };
+        KnownConvention {
+            arms: Arms {
+                pair: ContactArms {
+                    torque: if_known(ConventionKey::PairTorqueArm),
+                    kinematic: if_known(ConventionKey::PairKinematicArm),
+                },
+                floor: ContactArms {
+                    torque: if_known(ConventionKey::FloorTorqueArm),
+                    kinematic: if_known(ConventionKey::FloorKinematicArm),
+                },
+            },
+            history_update: self
+                .reason(ConventionKey::HistoryUpdate)
+                .is_none()
+                .then_some(convention.history_update),
+        }
+    }
+
+    /// Says in words where the contact points are: one sentence for each kind of contact whose arms are not those of the
+    /// undeformed body.
+    pub fn contact_points(&self) -> Vec<String> {
+        let arms = self.known(&self.convention).arms;
+        let of_kind = |place: &str, arms: ContactArms<Option<f64>>| {
+            let told = match (arms.torque, arms.kinematic) {
+                (Some(0.0), Some(0.0)) => return None,
+                (None, None) => "where the contact point lies is not known".to_owned(),
+                (Some(torque), Some(kinematic)) if torque == kinematic => {
+                    format!("the contact point lies {}", contact_point(torque))
+                }
+                (torque, kinematic) => format!(
+                    "the tangential force turns the bodies as if it acted {}, and surfaces move as if they met {}",
+                    torque.map_or(NOWHERE.to_owned(), contact_point),
+                    kinematic.map_or(NOWHERE.to_owned(), contact_point),
+                ),
+            };
+            Some(format!("{place}, {told}"))
+        };
+        let told = [
+            of_kind("in pairs", arms.pair),
+            of_kind("on the floor", arms.floor),
+        ];
+        told.into_iter().flatten().collect()
+    }
+
     /// Returns why `key` is unknown; `None` if it is known.
     pub fn reason(&self, key: ConventionKey) -> Option<&str> {
         let mut unknown = self.unknown.iter();
         unknown.find_map(|own| (own.key == key).then_some(own.because.as_str()))
     }
+}
+
+/// Words for a contact point that is not known.
+const NOWHERE: &str = "at a place that is not known";
+
+/// Says where the contact point of an arm r + r₁ × overlap lies, by its `coefficient` r₁.
+fn contact_point(coefficient: f64) -> String {
+    let side = match coefficient {
+        0.0 => return "on the surface of the undeformed body".to_owned(),
+        inside if inside < 0.0 => "inside",
+        _ => "outside",
+    };
+    let overlaps = match coefficient.abs() {
+        0.5 => "half an overlap".to_owned(),
+        1.0 => "one overlap".to_owned(),
+        overlaps => format!("{overlaps} overlaps"),
+    };
+    format!("{overlaps} {side} the surface of the undeformed body")
 }
 
 impl Declaration {
@@ -294,6 +380,42 @@ mod tests {
         let manifest = DeTable::parse(manifest).unwrap();
         let left_out = ConventionKey::left_out_of(manifest.get_ref()).into_iter();
         left_out.map(ConventionKey::as_str).collect()
+    }
+
+    #[test]
+    fn contact_points_are_told_where_they_are_not_on_the_undeformed_body() {
+        let told = |pair: f64, floor: ContactArms, unknown: &[ConventionKey]| {
+            let mut convention = ContactConvention::TURNING;
+            convention.arms.pair = ContactArms::reciprocal(pair);
+            convention.arms.floor = floor;
+            let declaration = Declaration {
+                convention,
+                velocity_lag: 0.5,
+                left_out: unknown.to_vec(),
+                in_space: false,
+            };
+            declaration.unsettled("").contact_points()
+        };
+        let reciprocal = ContactArms::reciprocal;
+        assert!(told(0.0, reciprocal(0.0), &[]).is_empty());
+        assert_eq!(
+            told(-0.5, reciprocal(-1.5), &[]),
+            [
+                "in pairs, the contact point lies half an overlap inside the surface of the undeformed body",
+                "on the floor, the contact point lies 1.5 overlaps inside the surface of the undeformed body"
+            ]
+        );
+        let apart = ContactArms {
+            torque: 1.0,
+            kinematic: 0.0,
+        };
+        assert_eq!(
+            told(0.0, apart, &[ConventionKey::FloorKinematicArm]),
+            [
+                "on the floor, the tangential force turns the bodies as if it acted one overlap outside the surface of the \
+                 undeformed body, and surfaces move as if they met at a place that is not known"
+            ]
+        );
     }
 
     #[test]

@@ -37,7 +37,7 @@ mod task;
 mod witness;
 mod written;
 
-pub use convention::{ConventionKey, Declaration, Settled, Unknown};
+pub use convention::{ConventionKey, Declaration, KnownConvention, Settled, Unknown};
 pub use described::Code;
 pub use failure::{Failure, FailureKind};
 pub use format::{ParameterFormat, ResultFormat, pyramid_in_log};

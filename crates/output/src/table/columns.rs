@@ -2,8 +2,8 @@
 
 use super::value::{Typed, ValueKind};
 use super::{DataTable, Value};
-use crate::code::Code;
-use crate::model::{Arms, ContactConvention, Law, Stack};
+use crate::code::{Code, KnownConvention};
+use crate::model::{Arms, HistoryUpdate, Law, Stack};
 use crate::number::{friction, or_dash};
 use crate::study::{Source, Verdict};
 use serde::Serialize;
@@ -261,16 +261,15 @@ impl<'a, R: 'a> Columns<'a, R> {
             .means("number n of bodies on the floor: 2 cylinders, or 3 to 5 spheres in a ring")
     }
 
-    /// Adds the part of a contact convention that moves the quasi-static limit.
-    pub(crate) fn convention<C: Into<Option<ContactConvention>>>(
+    /// Adds the part of a contact convention that moves the quasi-static limit; its columns are empty where it is not known.
+    pub(crate) fn convention(
         self,
-        convention: impl Fn(&R) -> C + Copy + 'a,
+        convention: impl Fn(&R) -> Option<KnownConvention> + Copy + 'a,
     ) -> Self {
-        let arm = move |row: &R, arm: fn(&Arms) -> f64| {
-            let convention: Option<ContactConvention> = convention(row).into();
-            convention.map(|convention| arm(&convention.arms))
+        let arm = move |row: &R, arm: fn(&Arms<Option<f64>>) -> Option<f64>| {
+            convention(row).and_then(|convention| arm(&convention.arms))
         };
-        let pair = "arm coefficient r₁ of the torque of cylinder–cylinder contacts";
+        let pair = "arm coefficient r₁ of the torque of cylinder–cylinder contacts; absent where it is not known";
         let floor = "the same of cylinder–wall contacts";
         let kinematic = "the same of the surface velocity";
         self.number("pair_torque_arm", "1", move |row| {
@@ -290,8 +289,8 @@ impl<'a, R: 'a> Columns<'a, R> {
         })
         .means(kinematic)
         .text("history_update", move |row| {
-            let convention: Option<ContactConvention> = convention(row).into();
-            convention.map(|convention| convention.history_update.as_str())
+            let known = convention(row).and_then(|convention| convention.history_update);
+            known.map(HistoryUpdate::as_str)
         })
         .means("treatment of the tangential spring of a turning contact")
     }

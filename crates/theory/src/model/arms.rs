@@ -4,8 +4,9 @@ use super::validity::{InvalidValue, within};
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
-/// Smallest and largest arm coefficient.
-pub const ARM_RANGE: [f64; 2] = [-1.0, 1.0];
+/// Smallest and largest arm coefficient. Beyond them an overlap of a hundredth of the radius moves an arm by more than the
+/// radius itself, so that it is no longer a correction of it.
+pub const ARM_RANGE: [f64; 2] = [-100.0, 100.0];
 
 /// Arm coefficients r₁ of one kind of contact: an arm is R = r + r₁ δ at the overlap δ.
 ///

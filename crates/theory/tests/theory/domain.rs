@@ -42,7 +42,7 @@ prop_compose! {
 }
 
 prop_compose! {
-    fn any_arms()(arms in prop::array::uniform4(-1.0..1.0)) -> Arms {
+    fn any_arms()(arms in prop::array::uniform4(-100.0..100.0)) -> Arms {
         let [pair, floor] = [[arms[0], arms[1]], [arms[2], arms[3]]]
             .map(|[torque, kinematic]| ContactArms { torque, kinematic });
         Arms { pair, floor }

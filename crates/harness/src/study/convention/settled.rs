@@ -10,6 +10,10 @@ use crate::model::{ARM_RANGE, HistoryUpdate};
 /// the least tolerance.
 const FINEST: f64 = 1e-9;
 
+/// Uncertainty up to which an arm is known: with a larger one it cannot be told from the next of the usual ones (0, −1/2,
+/// −1).
+const KNOWN_ARM: f64 = 0.25;
+
 const NOT_SHOWN: &str = "its motions do not show it";
 
 /// The declared convention, with what `properties` show of the keys that `declaration` leaves out.
@@ -63,6 +67,11 @@ fn take(settled: &mut Settled, key: ConventionKey, properties: &[&Property]) -> 
         }
         _ => {
             let Measured { value, uncertainty } = in_range(number(properties)?, ARM_RANGE);
+            if uncertainty > KNOWN_ARM {
+                return Err(format!(
+                    "its motions show it to within {uncertainty:.1} alone, and arms are told apart to within {KNOWN_ARM}"
+                ));
+            }
             key.set_arm(&mut convention.arms, value);
             key.set_arm(&mut found.arm_uncertainty, uncertainty);
         }
@@ -249,13 +258,32 @@ mod tests {
     #[test]
     fn an_arm_beyond_its_range_by_its_uncertainty_is_the_end_of_the_range() {
         let settled_at = |value: f64| {
-            let measured = [property("floor_torque_arm", value, 4e-7)];
+            let measured = [property("floor_torque_arm", value, 4e-5)];
             settled_by(ConventionKey::FloorTorqueArm, &measured)
         };
-        let found = settled_at(-1.000_000_3);
-        assert_eq!(found.convention.arms.floor.torque, -1.0);
-        assert!(found.arm_uncertainty.floor.torque > 4e-7);
-        assert_eq!(settled_at(-1.000_001).unknown.len(), 1);
+        assert_eq!(settled_at(-1.5).convention.arms.floor.torque, -1.5);
+        let [least, _] = ARM_RANGE;
+        let found = settled_at(least - 3e-5);
+        assert_eq!(found.convention.arms.floor.torque, least);
+        assert!(found.arm_uncertainty.floor.torque > 4e-5);
+        assert_eq!(settled_at(least - 1e-4).unknown.len(), 1);
+    }
+
+    #[test]
+    fn an_arm_that_cannot_be_told_from_another_is_not_known() {
+        let why = |uncertainty: f64| {
+            let measured = [property("floor_torque_arm", -0.7, uncertainty)];
+            let found = settled_by(ConventionKey::FloorTorqueArm, &measured);
+            let unknown = found.unknown.first().map(|own| own.because.clone());
+            (found.knows_limit(), unknown)
+        };
+        assert_eq!(why(0.1), (true, None));
+        let (knows_limit, because) = why(1.0);
+        assert!(!knows_limit);
+        assert_eq!(
+            because.unwrap(),
+            "its motions show it to within 1.0 alone, and arms are told apart to within 0.25"
+        );
     }
 
     #[test]

@@ -258,7 +258,8 @@ fn planned_protocols(
     force_lag: f64,
 ) -> Option<Vec<Protocol>> {
     let scale = speed_scale(limit, stack, convention)?;
-    let time_step = stable_time_step(stack, convention, force_lag);
+    let levers = largest_levers(limit, convention);
+    let time_step = stable_time_step(stack, convention, levers, force_lag);
     let protocols = SPEEDS.map(|speed| protocol_at_speed(limit, speed * scale, time_step));
     let mut protocols: Vec<Protocol> = protocols.into_iter().collect::<Option<_>>()?;
     let middle = protocols[MIDDLE_RUN];
@@ -279,10 +280,28 @@ fn planned_protocols(
     Some(protocols)
 }
 
+/// The largest product of torque arm and kinematic arm on the way to the peak, in r², and at least 1: what tangential
+/// springs hold the rotations with is so many times their stiffness.
+fn largest_levers(limit: &Limit, convention: &ContactConvention) -> f64 {
+    // The floor carries the largest overlaps.
+    let overlap = limit.peak_z.unwrap_or_default();
+    let Arms { pair, floor } = convention.arms;
+    let levers = [pair, floor].map(|arms| {
+        let arm = |coefficient: f64| 1.0 + coefficient * overlap;
+        (arm(arms.torque) * arm(arms.kinematic)).abs()
+    });
+    levers.into_iter().fold(1.0, f64::max)
+}
+
 /// The usual time step, halved until twice that step is stable: below κ = 0.375 tangential springs are too stiff for
-/// it. Forces that are late by `force_lag` steps must leave half of the damping then.
-fn stable_time_step(stack: &Stack, convention: &ContactConvention, force_lag: f64) -> f64 {
-    let longest = stack.longest_time_step(convention);
+/// it, and so are they with `levers` much larger than r². Forces that are late by `force_lag` steps must leave half of the damping then.
+fn stable_time_step(
+    stack: &Stack,
+    convention: &ContactConvention,
+    levers: f64,
+    force_lag: f64,
+) -> f64 {
+    let longest = stack.longest_time_step(convention) / levers.sqrt();
     let at_rest = stack.epsilon() / f64::from(stack.bodies);
     let laws = [
         convention.law(stack.stiffness_ratio),

@@ -2,8 +2,10 @@
 
 use super::extrapolate::Extrapolation;
 use super::judgement::Judgement;
+use crate::code::KnownConvention;
 use crate::runs::RunSummary;
 use crate::study::Verdict;
+use crate::theory::Limit;
 
 impl Judgement {
     /// Floor friction μ.
@@ -16,8 +18,22 @@ impl Judgement {
         self.study.stack.stiffness
     }
 
+    /// The exact limit under the convention of the code; `None` if an arm, or whether springs turn, is not known, so that
+    /// no limit is known for it.
+    fn known_limit(&self) -> Option<&Limit> {
+        let knows = self.study.code.settled().knows_limit();
+        knows.then_some(&self.study.limit)
+    }
+
+    /// What is known of the convention under which the limit was computed.
+    pub fn known_convention(&self) -> KnownConvention {
+        let settled = self.study.code.settled();
+        settled.known(&self.study.convention)
+    }
+
     /// Distance of the limit under the convention of the code from the one under the paper's, relative to F + 3.
     pub fn model_form(&self) -> Option<f64> {
+        self.known_limit()?;
         self.study.model_form
     }
 
@@ -36,12 +52,17 @@ impl Judgement {
 
     /// The exact yield force under the convention of the code, in m g.
     pub fn reference_force(&self) -> Option<f64> {
-        self.study.limit.yield_force
+        self.known_limit()?.yield_force
+    }
+
+    /// The exact slip onset under the convention of the code, in m g.
+    pub fn reference_onset(&self) -> Option<f64> {
+        self.known_limit()?.slip_onset
     }
 
     /// The exact force by which the code is judged, in m g: the slip onset if there is one under the wall.
     pub fn judged_reference(&self) -> Option<f64> {
-        let limit = &self.study.limit;
+        let limit = self.known_limit()?;
         limit
             .yield_force
             .and(limit.slip_onset.or(limit.yield_force))
@@ -52,7 +73,7 @@ impl Judgement {
     pub fn passes(&self) -> bool {
         let is_expected = match self.verdict() {
             Verdict::Agrees => true,
-            Verdict::NoYield => self.reference_force().is_none(),
+            Verdict::NoYield => self.study.limit.yield_force.is_none(),
             _ => false,
         };
         is_expected && !self.grounds.is_contradicted()

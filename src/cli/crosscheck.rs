@@ -10,7 +10,7 @@ use super::options::{
 use super::out::Out;
 use super::progress::{Reporter, during};
 use super::stack_set::StackSet;
-use super::{CliError, ExitStatus, published, tell};
+use super::{CliError, ExitStatus, published, tell, tell_grounds};
 use crate::files::Layout;
 use crate::model::Power;
 use crate::output::{
@@ -173,16 +173,9 @@ pub(super) fn conclude(
     codes: &[SelectedCode],
 ) -> ExitStatus {
     for judgement in judgements {
-        let stack = &judgement.study.stack;
-        for note in judgement.notes() {
-            tell!(
-                "{}: {} mu={} stiffness={}: {note}",
-                judgement.verdict(),
-                judgement.code,
-                friction(stack.floor_friction),
-                stack.stiffness
-            );
-        }
+        let (code, mu) = (&judgement.code, friction(judgement.mu()));
+        let place = format!("{code} mu={mu} stiffness={}", judgement.stiffness());
+        tell_grounds(&judgement.grounds, &place);
     }
     tell_stand_ins(codes, |code| {
         let mut own = judgements.iter().filter(|one| one.code == *code);

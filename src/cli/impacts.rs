@@ -7,7 +7,7 @@ use super::options::{
 };
 use super::out::Out;
 use super::progress::Reporter;
-use super::{CliError, ExitStatus, tell};
+use super::{CliError, ExitStatus, tell, tell_grounds};
 use crate::code::Code;
 use crate::files::Layout;
 use crate::output::{impacts, impacts_markdown, impacts_text, json};
@@ -115,13 +115,9 @@ fn conclude(judgements: &[ImpactJudgement], planned: usize, codes: &[SelectedCod
 fn tell_notes(row: &ImpactJudgement) {
     let impact = &row.study.impact;
     let (target, quantity) = (impact.target.as_str(), row.study.quantity.as_str());
-    for note in row.notes() {
-        tell!(
-            "{}: {}, {target}, speed {}, e_r {}, {quantity}: {note}",
-            row.verdict(),
-            row.code,
-            impact.approach_speed,
-            impact.convention.restitution
-        );
-    }
+    let place = format!(
+        "{}, {target}, speed {}, e_r {}, {quantity}",
+        row.code, impact.approach_speed, impact.convention.restitution
+    );
+    tell_grounds(&row.grounds, &place);
 }

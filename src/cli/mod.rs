@@ -49,7 +49,7 @@ pub(crate) use interrupt::INTERRUPT;
 use options::GRAMMAR;
 use std::cell::RefCell;
 use std::ffi::OsString;
-pub(crate) use streams::{complain, print, tell};
+pub(crate) use streams::{complain, print, tell, tell_grounds};
 
 /// Yield force of a three-cylinder stack: exact limit, native DEM, and external DEM codes compared with it
 #[derive(Debug, Parser)]

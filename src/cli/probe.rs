@@ -147,8 +147,9 @@ fn conclude(codes: &[SelectedCode], probed: &[Probed], findings: &[Finding]) -> 
     for finding in findings {
         let of_surface = finding.time_step_effect();
         for remark in finding
-            .growth()
+            .other_model()
             .into_iter()
+            .chain(finding.growth())
             .chain(of_surface.filter(|_| finding.step_effect.is_none()))
             .chain(finding.energy_made())
         {

@@ -1,6 +1,7 @@
 //! Results on standard output, messages on standard error.
 
 use super::ExitStatus;
+use crate::study::Grounds;
 use std::io::Write;
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -48,5 +49,17 @@ pub(crate) fn print(text: &str) -> ExitStatus {
             ExitStatus::NotWritten
         }
         _ => ExitStatus::Success,
+    }
+}
+
+/// Prints what decides about a row on standard error: the verdict with the first note, and the others below it.
+pub(crate) fn tell_grounds(grounds: &Grounds, row: &str) {
+    let notes = grounds.notes();
+    let Some((headline, others)) = notes.split_first() else {
+        return;
+    };
+    tell!("{}: {row}: {headline}", grounds.in_words());
+    for note in others {
+        tell!("  {note}");
     }
 }

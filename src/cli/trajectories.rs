@@ -5,7 +5,7 @@ use super::interrupt::interrupted_after;
 use super::options::{CodeOptions, Format, RunOptions, selected_codes, tell_stand_ins, whole};
 use super::out::Out;
 use super::progress::{Reporter, during};
-use super::{CliError, ExitStatus, tell};
+use super::{CliError, ExitStatus, tell, tell_grounds};
 use crate::code::{Code, SettledCode};
 use crate::files::Layout;
 use crate::model::{InvalidValue, PAPER_BODIES};
@@ -130,15 +130,12 @@ fn conclude(
 
 /// Prints the notes on a code and on its comparisons.
 fn tell_notes(judgement: &TrajectoryJudgement) {
-    for note in judgement.notes() {
-        tell!("{}: {}: {note}", judgement.verdict(), judgement.code);
-    }
+    let code = judgement.code.as_str();
+    tell_grounds(&judgement.grounds, code);
     for comparison in judgement.comparisons() {
-        for note in comparison.grounds.notes() {
-            let (code, verdict) = (judgement.code.clone(), comparison.verdict());
-            let twin = comparison.twin.as_str();
-            let (branch, quantity) = (comparison.branch.as_str(), comparison.quantity.as_str());
-            tell!("{verdict}: {code}, {twin} twin, {branch}, {quantity}: {note}");
-        }
+        let twin = comparison.twin.as_str();
+        let (branch, quantity) = (comparison.branch.as_str(), comparison.quantity.as_str());
+        let place = format!("{code}, {twin} twin, {branch}, {quantity}");
+        tell_grounds(&comparison.grounds, &place);
     }
 }

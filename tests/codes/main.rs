@@ -13,3 +13,4 @@ mod mutations;
 mod probe_laws;
 mod schemes;
 mod twins;
+mod variants;

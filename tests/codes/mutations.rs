@@ -466,7 +466,7 @@ fn assert_not_judged<S, F>(judged: &[Judged<S, F>]) {
     let notes = study.notes();
     let first = notes.first().expect("the reason");
     assert!(
-        first.starts_with("not judged: its probe contradicts its declaration: "),
+        first.starts_with("not judged: its probe contradicts what was asked for: "),
         "{first}"
     );
 }
@@ -493,7 +493,7 @@ fn no_study_judges_a_code_whose_probe_contradicts_its_declaration() {
         let verdicts: Vec<Verdict> = survey.verdicts().collect();
         assert_eq!(verdicts, [Verdict::Inconclusive]);
         assert!(
-            survey.notes[0].starts_with("not judged: its probe contradicts its declaration: "),
+            survey.notes[0].starts_with("not judged: its probe contradicts what was asked for: "),
             "{:?}",
             survey.notes
         );
@@ -595,7 +595,7 @@ fn a_stiffness_that_grows_with_the_overlap_is_named() {
         let judgement = crosscheck(mutation);
         let notes = judgement.notes();
         let first = notes.first().expect("the reason");
-        let reason = format!("not judged: its probe contradicts its declaration: {said}");
+        let reason = format!("not judged: its probe contradicts what was asked for: {said}");
         assert!(first.starts_with(&reason), "{mutation:?}: {first}");
     }
 }

@@ -36,6 +36,13 @@ fn scheme(index: usize) -> Scheme {
 
 /// A bench with the scheme as `mydem`, after further changes, and without a declared convention.
 fn bench(scheme: &Scheme, further: &[[&str; 2]]) -> Bench {
+    let own = scheme.change.iter().map(|[from, to]| [from.as_str(), to]);
+    changed(own.chain(further.iter().copied()))
+}
+
+/// A bench with a copy of the Python example as `mydem`, in whose script these changes are made and whose manifest declares
+/// no convention.
+pub fn changed<'a>(changes: impl Iterator<Item = [&'a str; 2]>) -> Bench {
     let bench = Bench::with_system_programs();
     let undeclared = |manifest: String| {
         let convention = manifest.find("[convention]").expect("a convention");
@@ -44,8 +51,7 @@ fn bench(scheme: &Scheme, further: &[[&str; 2]]) -> Bench {
     let folder = code_folder("examples/python", &bench.path("mydem"), undeclared);
     let script = folder.join("mydem.py");
     let mut text = fs::read_to_string(&script).expect("a script");
-    let own = scheme.change.iter().map(|[from, to]| [from.as_str(), to]);
-    for [from, to] in own.chain(further.iter().copied()) {
+    for [from, to] in changes {
         assert!(text.contains(from), "{from}");
         text = text.replace(from, to);
     }
@@ -54,7 +60,7 @@ fn bench(scheme: &Scheme, further: &[[&str; 2]]) -> Bench {
 }
 
 /// Exit status, rows and messages of a command with the code.
-fn rows(bench: &Bench, line: &str) -> (i32, Vec<Value>, String) {
+pub fn rows(bench: &Bench, line: &str) -> (i32, Vec<Value>, String) {
     let output = bench.tristack(line).output().expect("it runs");
     let status = output.status.code().expect("it ends by itself");
     let [text, messages] = [output.stdout, output.stderr].map(|text| {
@@ -64,7 +70,7 @@ fn rows(bench: &Bench, line: &str) -> (i32, Vec<Value>, String) {
     (status, json_rows(&text), messages)
 }
 
-const CROSSCHECK: &str = "crosscheck --codes ./mydem --mu 0.3 --stiffness 100 --format json";
+pub const CROSSCHECK: &str = "crosscheck --codes ./mydem --mu 0.3 --stiffness 100 --format json";
 
 /// The only row agrees, and the notes on it name what vanishes with the time step.
 fn agrees(index: usize, remark: &str) {

@@ -87,7 +87,7 @@ fn a_code_whose_probe_contradicts_its_declaration_is_not_judged() {
     assert_eq!(output.status.code(), Some(2), "{message}");
     assert!(
         message.contains(
-            "not judged: its probe contradicts its declaration: wall_reported_force is 1.001"
+            "not judged: its probe contradicts what was asked for: wall_reported_force is 1.001"
         ),
         "{message}"
     );

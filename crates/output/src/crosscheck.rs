@@ -295,7 +295,7 @@ fn explaining(judgements: &[Judgement]) -> String {
 
 fn remark(row: &Judgement) -> String {
     let (mu, stiffness) = (friction(row.mu()), row.stiffness());
-    let (code, verdict) = (row.code.clone(), row.verdict());
+    let (code, verdict) = (row.code.clone(), row.grounds.in_words());
     let notes = markdown_notes(&row.notes().join("\n"));
     format!("- **{code}, mu = {mu}, stiffness = {stiffness}: {verdict}**\n\n  {notes}\n")
 }

@@ -215,7 +215,7 @@ fn conclusion(row: &Judgement) -> String {
          and at most {MAX_TOLERANCE:e}): {}\n",
         optional(row.error(), relative),
         optional(row.tolerance(), |tolerance| format!("{tolerance:.1e}")),
-        row.verdict()
+        row.grounds.in_words()
     );
     for note in &row.notes() {
         text += &format!("   {note}\n");

@@ -137,7 +137,7 @@ pub fn impacts_markdown(judgements: &[ImpactJudgement], command: &str) -> String
 }
 
 fn remark(row: &ImpactJudgement) -> String {
-    let (code, verdict, impact) = (row.code.clone(), row.verdict(), &row.study.impact);
+    let (code, verdict, impact) = (row.code.clone(), row.grounds.in_words(), &row.study.impact);
     let (target, quantity) = (impact.target.as_str(), row.study.quantity.as_str());
     let (speed, restitution) = (
         impact.approach_speed,

@@ -48,8 +48,17 @@ pub(super) fn row(row: &Judgement) -> TestCase {
     let name = format!("{} at {}", row.code, place(row.mu(), row.stiffness()));
     let status = match row.passes() {
         true => TestCaseStatus::success(),
-        false if row.grounds.is_contradicted() => status(Verdict::Differs, &row.reason()),
-        false => status(row.verdict(), &row.reason()),
+        false => {
+            let shown = match row.grounds.is_contradicted() {
+                true => Verdict::Differs,
+                false => row.verdict(),
+            };
+            let mut status = status(shown, &row.reason());
+            if let Some(cause) = row.grounds.cause() {
+                status.set_type(cause.as_str());
+            }
+            status
+        }
     };
     TestCase::new(name, status)
 }

@@ -81,7 +81,11 @@ fn cell(finding: &Finding) -> String {
 
 fn of_declared(finding: &Finding) -> String {
     let declared = finding.declared;
-    declared.map_or_else(String::new, |declared| format!(", declared {declared}"))
+    let word = match finding.key {
+        Some(_) => "declared",
+        None => "asked for",
+    };
+    declared.map_or_else(String::new, |declared| format!(", {word} {declared}"))
 }
 
 /// Formats `value` to six decimals, without trailing zeros.

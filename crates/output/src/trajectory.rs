@@ -197,7 +197,7 @@ fn remarks(judgements: &[TrajectoryJudgement]) -> String {
     for judgement in judgements {
         let notes = markdown_notes(&judgement.notes().join("\n"));
         if !notes.is_empty() {
-            let (code, verdict) = (judgement.code.clone(), judgement.verdict());
+            let (code, verdict) = (judgement.code.clone(), judgement.grounds.in_words());
             lines += &format!("- **{code}: {verdict}**\n\n  {notes}\n");
         }
         for comparison in judgement.comparisons() {

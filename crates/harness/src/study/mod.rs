@@ -24,4 +24,4 @@ pub use pipeline::{Campaign, Evaluation, Judged, Source, Study};
 pub(crate) use tolerance::ROUNDING;
 pub use tolerance::{MAX_TOLERANCE, MIN_TOLERANCE, tolerance};
 pub(crate) use verdict::Ground;
-pub use verdict::{Grounds, Verdict};
+pub use verdict::{Cause, Grounds, Verdict};

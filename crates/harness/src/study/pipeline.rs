@@ -1,10 +1,10 @@
 //! The pipeline of every study: plan runs, carry them out or take recorded ones, evaluate them, derive the verdict.
 
 use super::convention::{
-    Probed, arms_are_measured, contradictions, forces_are_late, in_single_precision,
+    Finding, Probed, arms_are_measured, contradictions, forces_are_late, in_single_precision,
     is_contradicted, other_program, probe_all, settled_by, step_effects,
 };
-use super::verdict::{Ground, Grounds, Verdict};
+use super::verdict::{Cause, Ground, Grounds, Verdict};
 use crate::code::{Code, Identity, InstalledCode, SettledCode, Unknown};
 use crate::runs::{
     Outlook, Progress, Reading, RunError, SelectedCode, Settings, Workload, outlook, read_all,
@@ -97,18 +97,22 @@ pub struct Judged<S, F> {
 }
 
 impl<S: Study> Judged<S, S::Finding> {
-    /// Withdraws a judgement that depends on a part of the convention that neither the manifest nor the probe gives.
+    /// Withdraws a judgement that depends on parts of the convention that neither the manifest nor the probe gives. Parts
+    /// that are unknown for the same reason share a note.
     fn hold_to_settled(&mut self) {
-        for unknown in &self.study.code().settled().unknown {
-            if self.study.depends_on(unknown) {
-                let Unknown { key, because, .. } = unknown;
-                self.grounds.add(Ground::NotJudged {
-                    note: format!(
-                        "not judged: {key} is left out of its manifest and not known: {because}"
-                    ),
-                    contradicted: false,
-                });
-            }
+        let code = self.study.code();
+        let unknown = code.settled().unknown.iter();
+        let unknown: Vec<&Unknown> = unknown.filter(|own| self.study.depends_on(own)).collect();
+        for alike in unknown.chunk_by(|one, other| one.because == other.because) {
+            let keys: Vec<&str> = alike.iter().map(|own| own.key.as_str()).collect();
+            let are = if keys.len() == 1 { "is" } else { "are" };
+            let (keys, because) = (keys.join(", "), &alike[0].because);
+            self.grounds.add(Ground::NotJudged {
+                note: format!(
+                    "not judged: {keys} {are} left out of its manifest and not known: {because}"
+                ),
+                cause: Cause::NotKnown,
+            });
         }
     }
 }
@@ -333,7 +337,7 @@ impl Grounds {
         let single = probed.as_ref().ok().and_then(in_single_precision);
         single
             .into_iter()
-            .for_each(|told| self.add(Ground::Remark(told)));
+            .for_each(|told| self.add(Ground::SinglePrecision(told)));
         let mut contradictions = contradictions(probed);
         contradictions.extend(other_program(probed, identities.iter()));
         let Some(first) = contradictions.first() else {
@@ -350,7 +354,25 @@ impl Grounds {
         };
         self.add(Ground::NotJudged {
             note: format!("not judged: {first}{further}"),
-            contradicted: is_contradicted(probed),
+            cause: cause(probed),
         });
+    }
+}
+
+/// The kind of reason for which a code is not judged after its probe.
+fn cause(probed: &Probed) -> Cause {
+    let Ok(probe) = probed else {
+        return Cause::NotProbed;
+    };
+    let findings = &probe.findings;
+    let is_open = |own: &Finding| own.declared.is_some() && own.verdict != Verdict::Agrees;
+    if findings.iter().any(|own| own.other_model().is_some()) {
+        Cause::AnotherModel
+    } else if is_contradicted(probed) {
+        Cause::Contradicted
+    } else if findings.iter().any(is_open) {
+        Cause::NotKnown
+    } else {
+        Cause::NotProbed
     }
 }

@@ -64,6 +64,60 @@ impl std::fmt::Display for Verdict {
     }
 }
 
+/// What kind of reason keeps a row from agreeing, where its numbers alone do not.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Cause {
+    /// The code has a mechanism that the model does not have, or lacks one of it.
+    AnotherModel,
+    /// The probe contradicts what the manifest declares or the task asks for.
+    Contradicted,
+    /// A part of the convention is left out of the manifest, and the probe does not show it.
+    NotKnown,
+    /// The probe was made with another program than the runs, or there is none.
+    NotProbed,
+    /// Numbers in single precision leave the result too uncertain.
+    SinglePrecision,
+    /// The uncertainty is larger than what may be.
+    TooCoarse,
+    /// The numbers show nothing.
+    Undecidable,
+    /// The numbers agree, but something else speaks against them.
+    Doubtful,
+}
+
+impl Cause {
+    /// All of them.
+    pub const ALL: [Self; 8] = [
+        Self::AnotherModel,
+        Self::Contradicted,
+        Self::NotKnown,
+        Self::NotProbed,
+        Self::SinglePrecision,
+        Self::TooCoarse,
+        Self::Undecidable,
+        Self::Doubtful,
+    ];
+
+    /// The words in messages.
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Self::AnotherModel => "another model",
+            Self::Contradicted => "contradicted by its probe",
+            Self::NotKnown => "convention not known",
+            Self::NotProbed => "not probed",
+            Self::SinglePrecision => "single precision",
+            Self::TooCoarse => "too coarse",
+            Self::Undecidable => "not decidable",
+            Self::Doubtful => "doubtful",
+        }
+    }
+
+    /// Whether the code is known to be another one than it is meant to be.
+    fn contradicts(self) -> bool {
+        matches!(self, Self::AnotherModel | Self::Contradicted)
+    }
+}
+
 /// A ground for or against a row.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Ground {
@@ -98,6 +152,8 @@ pub(crate) enum Ground {
     Undecidable(String),
     /// An explanation without influence on the verdict.
     Remark(String),
+    /// The same: numbers of the code are in single precision.
+    SinglePrecision(String),
     /// Nothing yields, with the reason if it is known.
     NoYield(Option<String>),
     /// The code failed.
@@ -108,8 +164,8 @@ pub(crate) enum Ground {
     NotJudged {
         /// The reason.
         note: String,
-        /// Whether the convention is known to be another one.
-        contradicted: bool,
+        /// Its kind.
+        cause: Cause,
     },
 }
 
@@ -138,6 +194,7 @@ impl Ground {
             | Self::Blur { note, .. }
             | Self::Undecidable(note)
             | Self::Remark(note)
+            | Self::SinglePrecision(note)
             | Self::Failed(note)
             | Self::Missing(note)
             | Self::NotJudged { note, .. } => Some(note),
@@ -183,7 +240,7 @@ impl Ground {
             Self::NoYield(_) => Some(Verdict::NoYield),
             Self::Failed(_) => Some(Verdict::Failed),
             Self::Missing(_) => Some(Verdict::Missing),
-            Self::Remark(_) => None,
+            Self::Remark(_) | Self::SinglePrecision(_) => None,
         }
     }
 }
@@ -285,6 +342,46 @@ impl Grounds {
         noted.into_iter().filter_map(Ground::note).collect()
     }
 
+    /// The kind of reason why the row is inconclusive; `None` if it is not, or nothing was compared.
+    pub fn cause(&self) -> Option<Cause> {
+        if self.verdict() != Verdict::Inconclusive {
+            return None;
+        }
+        let blur = self.blur();
+        let is_coarse = |ground: &Ground| match ground {
+            Ground::Deviation { .. } => ground.verdict(blur) == Some(Verdict::Inconclusive),
+            _ => false,
+        };
+        let is_single = |ground: &Ground| matches!(ground, Ground::SinglePrecision(_));
+        let of = |ground: &Ground| {
+            Some(match ground {
+                Ground::NotJudged { cause, .. } => *cause,
+                Ground::Undecidable(_) => Cause::Undecidable,
+                own if is_coarse(own) && self.0.iter().any(is_single) => Cause::SinglePrecision,
+                own if is_coarse(own) => Cause::TooCoarse,
+                Ground::Doubt(_) | Ground::Blur { .. } => Cause::Doubtful,
+                _ => return None,
+            })
+        };
+        let rank = |cause: &Cause| match cause {
+            own if own.contradicts() => 0,
+            Cause::NotKnown | Cause::NotProbed => 1,
+            Cause::Undecidable => 2,
+            Cause::SinglePrecision | Cause::TooCoarse => 3,
+            _ => 4,
+        };
+        self.0.iter().filter_map(of).min_by_key(rank)
+    }
+
+    /// The verdict in words, with the kind of reason if it is inconclusive.
+    pub fn in_words(&self) -> String {
+        let verdict = self.verdict();
+        match self.cause() {
+            Some(cause) => format!("{verdict} ({})", cause.as_str()),
+            None => verdict.to_string(),
+        }
+    }
+
     /// Why the verdict is not `agrees`, in one line: the notes, or the numbers of the comparisons that decide.
     pub fn reason(&self) -> String {
         let notes = self.notes();
@@ -317,7 +414,7 @@ impl Grounds {
     /// Whether the row is not judged because the code is known to have another convention than it declares.
     pub fn is_contradicted(&self) -> bool {
         let is_contradicted = |ground: &Ground| match ground {
-            Ground::NotJudged { contradicted, .. } => *contradicted,
+            Ground::NotJudged { cause, .. } => cause.contradicts(),
             _ => false,
         };
         self.0.iter().any(is_contradicted)
@@ -371,10 +468,42 @@ mod tests {
         let mut open = told;
         open.add(Ground::NotJudged {
             note: "not judged".to_owned(),
-            contradicted: false,
+            cause: Cause::NotKnown,
         });
+        assert_eq!(open.cause(), Some(Cause::NotKnown));
         let notes = open.notes();
         assert_eq!(notes, ["not judged", "a doubt", "a violation", "a remark"]);
+    }
+
+    #[test]
+    fn the_cause_is_that_of_the_ground_that_decides() {
+        let coarse = Ground::Deviation {
+            error: 0.1,
+            uncertainty: 2.0,
+            tolerance: 1.0,
+            note: None,
+        };
+        let doubt = Ground::Doubt("a doubt".to_owned());
+        let not_judged = |cause| Ground::NotJudged {
+            note: "not judged".to_owned(),
+            cause,
+        };
+        let words = |list: &[Ground]| grounds(list).in_words();
+        assert_eq!(words(&[deviation(0.1)]), "agrees");
+        assert_eq!(words(&[deviation(3.0), doubt.clone()]), "differs");
+        assert_eq!(
+            words(std::slice::from_ref(&doubt)),
+            "inconclusive (doubtful)"
+        );
+        let mut list = vec![doubt, coarse];
+        assert_eq!(words(&list), "inconclusive (too coarse)");
+        list.push(Ground::SinglePrecision("32 bits".to_owned()));
+        assert_eq!(words(&list), "inconclusive (single precision)");
+        list.push(not_judged(Cause::NotKnown));
+        assert_eq!(words(&list), "inconclusive (convention not known)");
+        list.push(not_judged(Cause::AnotherModel));
+        assert_eq!(words(&list), "inconclusive (another model)");
+        assert!(grounds(&list).is_contradicted());
     }
 
     #[test]
@@ -450,7 +579,7 @@ mod tests {
     fn a_row_with_the_wrong_reference_is_not_judged_by_it() {
         let not_judged = Ground::NotJudged {
             note: "another arm".to_owned(),
-            contradicted: true,
+            cause: Cause::Contradicted,
         };
         let judged = grounds(&[Ground::Held, deviation(3.0)]);
         assert_eq!(judged.deviation(), Some((3.0, 1.0)));

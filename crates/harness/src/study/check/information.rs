@@ -114,7 +114,10 @@ fn yield_force(effects: &ArmEffects) -> String {
         stack.floor_friction, stack.stiffness
     );
     effects.force.zip(effects.paper_force).map_or_else(
-        || format!("{place} does not yield at the floor"),
+        || {
+            let reason = effects.reason.as_deref().unwrap_or("none");
+            format!("{place} {reason}")
+        },
         |(own, paper)| {
             let change = 100.0 * (own - paper) / paper;
             format!("{place} {own:.5} m g, {change:+.3} % of the paper's")
@@ -139,6 +142,9 @@ fn twin(passport: &Passport) -> String {
             "{}: the same arms, and so the same yield force",
             names(&passport.same_arms)
         );
+    }
+    if !passport.findings.measured.knows_limit() {
+        return "not known, as the convention is not".to_owned();
     }
     "none of the external codes inside the program has these arms; native takes on any".to_owned()
 }

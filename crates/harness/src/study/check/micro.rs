@@ -145,8 +145,8 @@ impl Micro {
             let is_its_own = other.property.starts_with(&own.property);
             other.growth().filter(|_| is_its_own)
         });
-        match (growth, own.measured, own.declared) {
-            (Some(growth), ..) => vec![growth],
+        match (own.other_model().or(growth), own.measured, own.declared) {
+            (Some(told), ..) => vec![told],
             (None, Some(found), Some(asked)) => causes_of(&own.property, found, asked),
             _ => Vec::new(),
         }
@@ -167,7 +167,11 @@ impl Micro {
                 causes.push(cause);
             }
         }
-        let expected = format!("{} (declared)", list(&wrong, |own| own.declared));
+        let word = match wrong.iter().any(|own| own.key.is_some()) {
+            true => "declared",
+            false => "asked for",
+        };
+        let expected = format!("{} ({word})", list(&wrong, |own| own.declared));
         let found = format!("{} (measured)", list(&wrong, |own| own.measured));
         Item::failed(Grade::Consistency, DECLARATION, expected, found, causes)
     }
@@ -175,6 +179,9 @@ impl Micro {
     /// Says how the manifest would declare the measured `value`, or what is wrong with the code if it has no word for
     /// it or the integrator is explicit Euler.
     fn correction(&self, own: &Finding, value: f64) -> String {
+        if let Some(told) = own.other_model() {
+            return told;
+        }
         let measured = &self.findings.measured;
         let known = own.key.filter(|key| measured.reason(*key).is_none());
         known.map_or_else(

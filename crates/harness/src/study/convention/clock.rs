@@ -1,6 +1,6 @@
 //! Mass, moment of inertia, and the times to which reported velocities and the forces in a step belong.
 
-use super::finding::{FORCE_LAG, Property, StepEffect, TOLERANCE, VELOCITY_LAG};
+use super::finding::{FORCE_LAG, LOCAL_DAMPING, Property, StepEffect, TOLERANCE, VELOCITY_LAG};
 use super::regression::{Measured, fit};
 use crate::code::Declaration;
 use crate::model::ContactTest;
@@ -19,6 +19,9 @@ pub struct Clock {
     /// Steps by which the forces that move the bodies lag behind the positions; `None` if they do not, as in a
     /// leapfrog and in velocity Verlet. In explicit Euler it is 1.
     pub force_lag: Option<Measured>,
+    /// Share of each component of force and torque by which what moves a body is less than it while the body moves
+    /// along it, and more while it moves against it (local damping, as Cundall's); `None` if there is none.
+    pub local_damping: Option<Measured>,
     /// Motions are cut off after multiples of this many steps.
     pub grain: u64,
 }
@@ -29,7 +32,8 @@ impl Clock {
     ///
     /// With the velocities v_{n−1/2} = (x_n − x_{n−1})/dt, mass, lag l of forces and lag s of velocities follow from
     /// [(1 − l) F_n + l F_{n−1}] dt = m (v_{n+1/2} − v_{n−1/2}) and v_n = v_{n−1/2} + (1/2 − s)(v_{n+1/2} − v_{n−1/2});
-    /// the inertia from ω_{n+1} − ω_n = dt [(1/2 + s) T_n + (1/2 − s) T_{n+1}]/I with T_n = (1 − l) M_n + l M_{n−1}.
+    /// the inertia from ω_{n+1} − ω_n = dt [(1/2 + s) T_n + (1/2 − s) T_{n+1}]/I with T_n = (1 − l) M_n + l M_{n−1}. With
+    /// local damping α, F − α |F| sign v takes the place of F, and the same of M.
     pub fn read(motions: &[(&ContactTest, &Motion)], grain: u64) -> Self {
         let bodies: Vec<(f64, Vec<BodyRow>)> = motions
             .iter()
@@ -49,12 +53,22 @@ impl Clock {
                     let earlier = (now.position[axis] - before.position[axis]) / dt;
                     let later = (after.position[axis] - now.position[axis]) / dt;
                     let forces = [now.force[axis] * dt, before.force[axis] * dt];
-                    kicks.push((forces, later - earlier));
+                    kicks.push(Kick {
+                        forces,
+                        velocities: [earlier, later],
+                    });
                     lags.push(([later - earlier], now.velocity[axis] - earlier));
                 }
             }
         }
-        let (inverse_mass, force_lag) = Self::read_kicks(&kicks);
+        let Kicked {
+            inverse_mass,
+            force_lag,
+            local_damping,
+        } = Kicked::by(&kicks);
+        let moving = |before: f64, now: f64, speed: f64| {
+            moving(force_lag, before, now) - damped(local_damping, now, speed)
+        };
         let [advance] = fit(&lags);
         let velocity_lag = Measured::new(0.5 - advance.value, advance.uncertainty);
         let share = velocity_lag.value;
@@ -62,8 +76,11 @@ impl Clock {
         for (dt, rows) in &bodies {
             for window in rows.windows(3) {
                 let [before, now, after] = [window[0], window[1], window[2]];
+                if local_damping.is_some() && before.spin * after.spin <= 0.0 {
+                    continue;
+                }
                 let [this, next] = [[before, now], [now, after]]
-                    .map(|[before, now]| moving(force_lag, before.torque, now.torque));
+                    .map(|[before, now]| moving(before.torque, now.torque, now.spin));
                 let torque = (0.5 + share) * this + (0.5 - share) * next;
                 turns.push(([torque * dt], after.spin - now.spin));
             }
@@ -74,25 +91,9 @@ impl Clock {
             moment_of_inertia: inverse_inertia.inverse(),
             velocity_lag,
             force_lag,
+            local_damping,
             grain,
         }
-    }
-
-    /// Fits the changes of velocities to the forces, times dt, of the same step and of the step before. Returns the
-    /// inverse of the mass, and the lag of the forces where one explains the changes to the last digits.
-    fn read_kicks(kicks: &[([f64; 2], f64)]) -> (Measured, Option<Measured>) {
-        let [same, before] = fit(kicks);
-        let sum = Measured::new(
-            same.value + before.value,
-            same.uncertainty + before.uncertainty,
-        );
-        let lag = before.over(sum);
-        if lag.uncertainty <= TOLERANCE && lag.value.abs() > TOLERANCE {
-            return (sum, Some(lag));
-        }
-        let own = kicks.iter().map(|([same, _], change)| ([*same], *change));
-        let [inverse_mass] = fit(&own.collect::<Vec<_>>());
-        (inverse_mass, None)
     }
 
     /// The fitted properties beside the declared ones.
@@ -113,12 +114,15 @@ impl Clock {
             }),
             ..Property::new(FORCE_LAG, lag, 0.0)
         }));
+        let damping = self.local_damping;
+        properties.extend(damping.map(|share| Property::new(LOCAL_DAMPING, share, 0.0)));
         properties
     }
 
-    /// The force (torque) that moves a body in a step, from those of the step `before` and of the step itself, `now`.
-    pub fn moving(&self, before: f64, now: f64) -> f64 {
-        moving(self.force_lag, before, now)
+    /// The component of force (torque) that moves a body in a step, from those of the step `before` and of the step
+    /// itself, `now`, and from its `speed` in the same direction.
+    pub fn moving(&self, before: f64, now: f64, speed: f64) -> f64 {
+        moving(self.force_lag, before, now) - damped(self.local_damping, now, speed)
     }
 
     /// Velocity and spin of a body half a step before its position, from the rows of that step and of the step
@@ -126,10 +130,10 @@ impl Clock {
     pub fn half_step_earlier(&self, before: &BodyRow, body: &BodyRow, dt: f64) -> ([f64; 2], f64) {
         let back = (0.5 - self.velocity_lag.value) * dt;
         let velocity = [0, 1].map(|axis| {
-            let force = self.moving(before.force[axis], body.force[axis]);
+            let force = self.moving(before.force[axis], body.force[axis], body.velocity[axis]);
             body.velocity[axis] - back * force / self.mass.value
         });
-        let torque = self.moving(before.torque, body.torque);
+        let torque = self.moving(before.torque, body.torque, body.spin);
         let spin = body.spin - back * torque / self.moment_of_inertia.value;
         (velocity, spin)
     }
@@ -138,4 +142,88 @@ impl Clock {
 /// The force that moves a body in a step, from those of the step `before` and of the step itself, `now`.
 fn moving(lag: Option<Measured>, before: f64, now: f64) -> f64 {
     lag.map_or(now, |lag| (1.0 - lag.value) * now + lag.value * before)
+}
+
+/// What local damping takes from a force, or adds to it.
+fn damped(damping: Option<Measured>, force: f64, speed: f64) -> f64 {
+    let share = damping.map_or(0.0, |share| share.value);
+    match speed == 0.0 {
+        true => 0.0,
+        false => share * force.abs() * speed.signum(),
+    }
+}
+
+/// A step of one body along one axis.
+struct Kick {
+    /// The forces of the step and of the step before, times dt.
+    forces: [f64; 2],
+    /// The velocities half a step before and after.
+    velocities: [f64; 2],
+}
+
+impl Kick {
+    fn change(&self) -> f64 {
+        self.velocities[1] - self.velocities[0]
+    }
+}
+
+/// What moves the bodies.
+struct Kicked {
+    inverse_mass: Measured,
+    force_lag: Option<Measured>,
+    local_damping: Option<Measured>,
+}
+
+impl Kicked {
+    /// Fits the changes of velocities to the forces: to those of the step alone, unless they leave something that those of
+    /// the step before, or local damping, explain to the last digits.
+    fn by(kicks: &[Kick]) -> Self {
+        let plain = kicks.iter().map(|kick| ([kick.forces[0]], kick.change()));
+        let [inverse_mass] = fit(&plain.collect::<Vec<_>>());
+        let plain = Self {
+            inverse_mass,
+            force_lag: None,
+            local_damping: None,
+        };
+        Self::with_lag(kicks)
+            .or_else(|| Self::with_local_damping(kicks))
+            .unwrap_or(plain)
+    }
+
+    fn with_lag(kicks: &[Kick]) -> Option<Self> {
+        let terms = kicks.iter().map(|kick| (kick.forces, kick.change()));
+        let [same, before] = fit(&terms.collect::<Vec<_>>());
+        let inverse_mass = Measured::new(
+            same.value + before.value,
+            same.uncertainty + before.uncertainty,
+        );
+        let force_lag = seen(before.over(inverse_mass));
+        force_lag.is_some().then_some(Self {
+            inverse_mass,
+            force_lag,
+            local_damping: None,
+        })
+    }
+
+    /// Steps in which a velocity changes its sign are left out: codes take the sign at different moments of a step.
+    fn with_local_damping(kicks: &[Kick]) -> Option<Self> {
+        let goes_on = |kick: &&Kick| kick.velocities[0] * kick.velocities[1] > 0.0;
+        let terms = kicks.iter().filter(goes_on).map(|kick| {
+            let force = kick.forces[0];
+            let against = -force.abs() * kick.velocities[0].signum();
+            ([force, against], kick.change())
+        });
+        let [inverse_mass, against] = fit(&terms.collect::<Vec<_>>());
+        let local_damping = seen(against.over(inverse_mass));
+        local_damping.is_some().then_some(Self {
+            inverse_mass,
+            force_lag: None,
+            local_damping,
+        })
+    }
+}
+
+/// A share that is known to the last digits and is not 0.
+fn seen(share: Measured) -> Option<Measured> {
+    (share.uncertainty <= TOLERANCE && share.value.abs() > TOLERANCE).then_some(share)
 }

@@ -46,6 +46,15 @@ pub const VELOCITY_LAG: &str = "velocity_lag";
 /// Name of the steps by which the forces that move the bodies lag behind the positions.
 pub const FORCE_LAG: &str = "force_lag";
 
+/// Name of the share by which bodies are damped in proportion to the force on them.
+pub const LOCAL_DAMPING: &str = "local_damping";
+
+/// Name of the couple that resists rolling, over the normal force, without the kind of contact.
+pub const ROLLING_COUPLE: &str = "rolling_couple";
+
+/// Name of the stiffness of the tangential spring, without the kind of contact.
+pub const TANGENTIAL_STIFFNESS: &str = "tangential_stiffness";
+
 /// Name of what a contact does to its spring when it turns, without the kind of contact.
 pub const HISTORY_UPDATE: &str = "history_update";
 
@@ -108,6 +117,29 @@ impl Finding {
         let changes = if exponent < 0.0 { "falls" } else { "grows" };
         Some(format!(
             "{kind} {k} {changes} with the overlap (like overlap^{exponent:.2})"
+        ))
+    }
+
+    /// Names what the code has, or lacks, beside the model; `None` if this finding does not show such a thing.
+    pub fn other_model(&self) -> Option<String> {
+        let measured = self.measured.filter(|_| self.verdict == Verdict::Differs)?;
+        let name = self.property.as_str();
+        if name == LOCAL_DAMPING {
+            return Some(format!(
+                "the bodies are damped in proportion to the force on them (local damping, as Cundall's) with the coefficient \
+                 {measured:.6}, which the model does not have"
+            ));
+        }
+        let of_kind = |end: &str| Some(name.strip_suffix(end)?.trim_end_matches('_'));
+        if let Some(kind) = of_kind(ROLLING_COUPLE) {
+            return Some(format!(
+                "{kind}: a couple of {measured:.2e} r times the normal force resists rolling, which the model does not have"
+            ));
+        }
+        let kind = of_kind(TANGENTIAL_STIFFNESS).filter(|_| measured == 0.0)?;
+        Some(format!(
+            "{kind}: there is no tangential spring; the tangential force only opposes the sliding, and gives nothing back once the \
+             surfaces come to rest"
         ))
     }
 

@@ -239,8 +239,11 @@ pub fn contradicting(probe: &Findings) -> Vec<String> {
     let mut contradicting: Vec<&Finding> = declared
         .filter(|one| one.verdict != Verdict::Agrees)
         .collect();
-    // A stiffness that grows explains the others, and comes before them.
-    contradicting.sort_by_key(|one| (one.verdict != Verdict::Differs, one.growth().is_none()));
+    // Another model, and a stiffness that grows, explain the others, and come before them.
+    contradicting.sort_by_key(|one| {
+        let explains = one.other_model().is_some() || one.growth().is_some();
+        (one.verdict != Verdict::Differs, !explains)
+    });
     let digits = probe.few_digits.map_or_else(String::new, |digits| {
         format!(" (printed with {digits} digits)")
     });
@@ -249,12 +252,20 @@ pub fn contradicting(probe: &Findings) -> Vec<String> {
 }
 
 fn contradiction(finding: &Finding) -> String {
+    if let Some(told) = finding.other_model() {
+        return format!("its probe shows another model: {told}");
+    }
+    // What has no key in a manifest is asked for by the task.
+    let [declaration, declared_as] = match finding.key {
+        Some(_) => ["its declaration", "declared"],
+        None => ["what was asked for", "asked for"],
+    };
     let says = match finding.verdict {
-        Verdict::Differs => "contradicts its declaration",
-        _ => "decides nothing about its declaration",
+        Verdict::Differs => "contradicts",
+        _ => "decides nothing about",
     };
     if let Some(growth) = finding.growth() {
-        return format!("its probe {says}: {growth}");
+        return format!("its probe {says} {declaration}: {growth}");
     }
     let measured = finding.measured;
     let measured = measured.map_or_else(|| "unknown".to_owned(), |value| format!("{value:.9}"));
@@ -262,7 +273,9 @@ fn contradiction(finding: &Finding) -> String {
     let property = &finding.property;
     let because = finding.unknown_because();
     let because = because.map_or_else(String::new, |because| format!(" ({because})"));
-    format!("its probe {says}: {property} is {measured}, declared {declared}{because}")
+    format!(
+        "its probe {says} {declaration}: {property} is {measured}, {declared_as} {declared}{because}"
+    )
 }
 
 #[cfg(test)]
@@ -315,7 +328,7 @@ mod tests {
         assert!(is_contradicted(&wrong));
         let first = &contradictions(&wrong)[0];
         assert!(
-            first.contains("contradicts its declaration: differs"),
+            first.contains("contradicts what was asked for: differs"),
             "{first}"
         );
         let of_arm = |verdict| {

@@ -17,6 +17,7 @@ mod measured;
 mod measured_arms;
 mod micro_tests;
 mod normal;
+mod other_model;
 mod passport;
 mod passport_file;
 mod plan;

@@ -59,6 +59,8 @@ pub struct ArmEffects {
     pub force: Option<f64>,
     /// Uncertainty of that limit from the uncertainties of the measured arms, in m g.
     pub uncertainty: Option<f64>,
+    /// Why there is no such limit; absent if there is one.
+    pub reason: Option<String>,
 }
 
 impl Passport<'_> {
@@ -191,14 +193,16 @@ fn effects(stack: Stack, measured: &Settled) -> ArmEffects {
         },
         ..stack
     };
-    let force = |arms: Arms| {
+    let limit = |arms: Arms| {
         let convention = ContactConvention {
             law,
             history_update: measured.convention.history_update,
             ..ContactConvention::with_arms(arms)
         };
-        quasistatic_limit(&Problem::new(stack, convention).ok()?).yield_force
+        let problem = Problem::new(stack, convention).ok()?;
+        Some(quasistatic_limit(&problem))
     };
+    let force = |arms: Arms| limit(arms)?.yield_force;
     let arms = measured.convention.arms;
     let paper_force = force(Arms::PAPER);
     let known = |key: &ConventionKey| measured.reason(*key).is_none();
@@ -210,11 +214,19 @@ fn effects(stack: Stack, measured: &Settled) -> ArmEffects {
     let all_known = measured.knows_limit();
     let own = Problem::new(stack, measured.convention).ok();
     let uncertainty = own.and_then(|own| limit_uncertainty(&own, &measured.arm_uncertainty));
+    let own_limit = limit(arms).filter(|_| all_known);
+    let reason = match &own_limit {
+        Some(limit) => limit.reason.clone(),
+        None => {
+            Some("not known, since it depends on what is not known of the convention".to_owned())
+        }
+    };
     ArmEffects {
         stack,
         paper_force,
         changes: ConventionKey::ARMS.map(alone),
-        force: force(arms).filter(|_| all_known),
+        force: own_limit.and_then(|limit| limit.yield_force),
+        reason,
         uncertainty: uncertainty.filter(|_| all_known),
     }
 }

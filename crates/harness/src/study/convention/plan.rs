@@ -3,9 +3,10 @@
 use super::clock::Clock;
 use super::contact_frame::{ContactRow, contact_rows};
 use super::experiments::{self, ContactKind};
-use super::finding::Property;
+use super::finding::{Property, ROLLING_COUPLE, TANGENTIAL_STIFFNESS};
 use super::linear_form::sticking;
 use super::normal::{self, LinearNormalLaw, pull};
+use super::other_model::{has_no_spring, rolling_couple};
 use super::power::NormalPowerLaw;
 use super::properties::{growing_properties, power_properties};
 use super::properties::{growth, normal_properties, sliding_properties, tangential_properties};
@@ -245,12 +246,25 @@ impl Laws {
             properties.extend(self.wall_properties());
             return properties;
         }
+        if kind == ContactKind::Pair {
+            let couple = rolling_couple(&self.rows[STICKING]);
+            properties.extend(couple.map(|own| Property::at(kind, ROLLING_COUPLE, own, 0.0)));
+        }
         let share = self.operand_damping(near_slip, clock);
         let sliding = SlidingLaw::read(&self.rows[SLIDING], &self.tangential, share.value);
         properties.extend(match &self.normal {
             Normal::Linear(_) => tangential_properties(kind, &self.tangential, test),
             Normal::Power(law) => growing_properties(kind, &self.tangential, law, test),
         });
+        let stiffness = properties
+            .iter_mut()
+            .find(|own| own.name.ends_with(&format!("_{TANGENTIAL_STIFFNESS}")));
+        if let Some(own) = stiffness
+            && !own.measured.uncertainty.is_finite()
+            && has_no_spring(&self.rows[STICKING])
+        {
+            own.measured = Measured::new(0.0, 0.0);
+        }
         let test = &self.plan.tests[SLIDING];
         properties.extend(sliding_properties(kind, &sliding, share, test));
         properties

@@ -342,12 +342,12 @@ impl Body {
     fn half_step_earlier(self, before: &Self, test: &ContactTest, clock: &Clock) -> Self {
         let back = (clock.velocity_lag.value - 0.5) * test.time_step;
         let inertia = test.convention.moment_of_inertia;
-        let moving = |before: Vector, now: Vector| {
-            std::array::from_fn(|axis| clock.moving(before[axis], now[axis]))
+        let moving = |before: Vector, now: Vector, speed: Vector| {
+            std::array::from_fn(|axis| clock.moving(before[axis], now[axis], speed[axis]))
         };
         let (force, torque) = (
-            moving(before.force, self.force),
-            moving(before.torque, self.torque),
+            moving(before.force, self.force, self.velocity),
+            moving(before.torque, self.torque, self.spin),
         );
         Self {
             velocity: combine(self.velocity, back, force),
@@ -745,6 +745,7 @@ mod tests {
             moment_of_inertia: Measured::new(own.moment_of_inertia, 0.0),
             velocity_lag: Measured::new(0.5, 0.0),
             force_lag: None,
+            local_damping: None,
             grain: 1,
         };
         let declared = Declaration {

@@ -7,6 +7,7 @@ use crate::common::{Bench, project, standard_output};
 use page::{Example, Page, without_uncertainties, words};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
+use tristack::study::Cause;
 
 /// Characters of README.md at most: a first page is read in one go.
 const LONGEST_FIRST_PAGE: usize = 6000;
@@ -181,4 +182,14 @@ fn every_command_and_flag_of_the_pages_exists() {
         }
     }
     assert!(tried > 40, "{tried} flags are found");
+}
+
+/// The page on verdicts explains every cause.
+#[test]
+fn every_cause_of_an_inconclusive_row_is_explained() {
+    let page = Page::read("docs/verdicts.md");
+    for cause in Cause::ALL {
+        let row = format!("\n| {} | ", cause.as_str());
+        assert!(page.text.contains(&row), "{}", cause.as_str());
+    }
 }

@@ -35,5 +35,5 @@ pub use pyramid_run::PyramidRun;
 pub use rebound::Rebound;
 pub use reported::not_tested;
 pub use sample::{FloorContact, Placement, Sample};
-pub use samples::{Series, SeriesError};
+pub use samples::{NotFinite, Series, SeriesError};
 pub use summary::Summary;

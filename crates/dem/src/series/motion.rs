@@ -1,9 +1,9 @@
 //! The result of a micro-test: the motion of two cylinders or spheres and the forces on them, step by step.
 
-use super::SeriesError;
 use super::column::{Column, Number, columns};
 use super::digits::most_digits;
 use super::header::{ColumnSources, csv_rows};
+use super::{NotFinite, SeriesError};
 use serde::{Deserialize, Serialize};
 use std::io::Read;
 
@@ -176,8 +176,12 @@ impl Motion {
                 });
             }
             if !row.is_finite() {
-                let message = "not every value is a finite number";
-                return Err(SeriesError::garbled(index + 1, message));
+                let columns: Vec<&Column<MotionRow>> = MotionRow::COLUMNS.iter().collect();
+                let found = NotFinite::find(&rows[..=index], &columns, |row| row.step);
+                return Err(found.map_or_else(
+                    || SeriesError::garbled(index + 1, "not every value is a finite number"),
+                    SeriesError::from,
+                ));
             }
         }
         let (found, expected) = (rows.len(), planned_rows(steps));

@@ -18,13 +18,8 @@ pub enum SeriesError {
     Garbled { row: usize, message: String },
     #[error("the columns are `{found}`; {problem}")]
     Columns { found: String, problem: String },
-    #[error("row {row} (step {step}): `{column}` is {value}, but must be a finite number")]
-    NotFinite {
-        row: usize,
-        step: u64,
-        column: &'static str,
-        value: f64,
-    },
+    #[error(transparent)]
+    NotFinite(#[from] NotFinite),
     #[error("row {row} is at step {found}, but must be at step {expected}")]
     WrongStep {
         row: usize,
@@ -41,6 +36,70 @@ pub enum SeriesError {
     #[error("the series has {found} rows{}, but must have {expected}", or_more(*found, *expected))]
     Truncated { found: usize, expected: usize },
 }
+
+/// Numbers of a row that are not finite.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[error("row {row} (step {step}): `{}` is {value}, but must be a finite number{}", .columns[0], and_others(.columns))]
+pub struct NotFinite {
+    /// The row, counted from 1.
+    pub row: usize,
+    /// Its step.
+    pub step: u64,
+    /// The columns with these numbers, at least one.
+    pub columns: Vec<&'static str>,
+    /// The number in the first of them.
+    pub value: f64,
+    /// How many other columns there are, beside step and time.
+    pub finite: usize,
+    /// The largest magnitude of a number in those, and in the rows before.
+    pub largest: f64,
+}
+
+/// Names the further `columns` with numbers that are not finite.
+fn and_others(columns: &[&str]) -> String {
+    match columns {
+        [] | [_] => String::new(),
+        [_, others @ ..] => format!(", and so must {}", others.join(", ")),
+    }
+}
+
+impl NotFinite {
+    /// Finds the first of `rows` with a number in `columns` that is not finite; `step` gives the step of a row.
+    pub(super) fn find<R>(
+        rows: &[R],
+        columns: &[&Column<R>],
+        step: impl Fn(&R) -> u64,
+    ) -> Option<Self> {
+        let mut largest = 0.0_f64;
+        for (row, own) in (1..).zip(rows) {
+            let mut bad = Vec::new();
+            let mut finite = 0;
+            for column in columns {
+                let value = (column.value)(own);
+                if !value.is_finite() {
+                    bad.push((column.name, value));
+                } else if !COUNTERS.contains(&column.name) {
+                    finite += 1;
+                    largest = largest.max(value.abs());
+                }
+            }
+            if let Some(&(_, value)) = bad.first() {
+                return Some(Self {
+                    row,
+                    step: step(own),
+                    columns: bad.into_iter().map(|(name, _)| name).collect(),
+                    value,
+                    finite,
+                    largest,
+                });
+            }
+        }
+        None
+    }
+}
+
+/// Columns that count, and say nothing about sizes.
+const COUNTERS: [&str; 2] = ["step", "time"];
 
 impl SeriesError {
     /// There is no series; `message` names what is missing, and what was found instead.
@@ -117,7 +176,7 @@ impl Series {
         let schedule = case.protocol.schedule();
         let mut planned = schedule.sampled_steps();
         for (row, sample) in (1..).zip(&samples) {
-            check_finite(row, sample, columns, &absent)?;
+            check_finite(row, &samples, columns, &absent)?;
             let Some(expected) = planned.next() else {
                 break;
             };
@@ -186,7 +245,7 @@ impl Series {
         }
         let mut before = None;
         for (row, sample) in (1..).zip(&samples) {
-            check_finite(row, sample, columns, &absent)?;
+            check_finite(row, &samples, columns, &absent)?;
             if before.is_some_and(|before| sample.step <= before) {
                 let message = format!("step {} does not come after the one before", sample.step);
                 return Err(SeriesError::garbled(row, message));
@@ -222,23 +281,25 @@ impl Series {
     }
 }
 
+/// Checks that the numbers of a row, counted from 1, are finite, but for columns that are `absent`.
 fn check_finite(
     row: usize,
-    sample: &Sample,
+    samples: &[Sample],
     columns: &[Column<Sample>],
     absent: &[&str],
 ) -> Result<(), SeriesError> {
-    let offending = columns
+    let present = columns
         .iter()
-        .find(|column| !(column.value)(sample).is_finite() && !absent.contains(&column.name));
-    offending.map_or(Ok(()), |column| {
-        Err(SeriesError::NotFinite {
-            row,
-            step: sample.step,
-            column: column.name,
-            value: (column.value)(sample),
-        })
-    })
+        .filter(|column| !absent.contains(&column.name));
+    let is_finite = |column: &&Column<Sample>| (column.value)(&samples[row - 1]).is_finite();
+    if present.clone().all(|column| is_finite(&column)) {
+        return Ok(());
+    }
+    let present: Vec<&Column<Sample>> = present.collect();
+    match NotFinite::find(&samples[..row], &present, |sample| sample.step) {
+        Some(found) => Err(found.into()),
+        None => Ok(()),
+    }
 }
 
 /// Checks the time of a row. Codes may sum the time step instead of multiplying it, which rounds differently.

@@ -370,9 +370,13 @@ fn cause(probed: &Probed) -> Cause {
         Cause::AnotherModel
     } else if is_contradicted(probed) {
         Cause::Contradicted
-    } else if findings.iter().any(is_open) {
-        Cause::NotKnown
-    } else {
+    } else if !findings.iter().any(is_open) {
         Cause::NotProbed
+    } else if !probe.single.is_empty() {
+        Cause::SinglePrecision
+    } else if probe.few_digits.is_some() {
+        Cause::FewDigits
+    } else {
+        Cause::NotKnown
     }
 }

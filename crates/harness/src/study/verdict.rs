@@ -77,6 +77,8 @@ pub enum Cause {
     NotProbed,
     /// Numbers in single precision leave the result too uncertain.
     SinglePrecision,
+    /// Numbers are printed with so few digits that they leave the result too uncertain.
+    FewDigits,
     /// The uncertainty is larger than what may be.
     TooCoarse,
     /// The numbers show nothing.
@@ -87,12 +89,13 @@ pub enum Cause {
 
 impl Cause {
     /// All of them.
-    pub const ALL: [Self; 8] = [
+    pub const ALL: [Self; 9] = [
         Self::AnotherModel,
         Self::Contradicted,
         Self::NotKnown,
         Self::NotProbed,
         Self::SinglePrecision,
+        Self::FewDigits,
         Self::TooCoarse,
         Self::Undecidable,
         Self::Doubtful,
@@ -106,6 +109,7 @@ impl Cause {
             Self::NotKnown => "convention not known",
             Self::NotProbed => "not probed",
             Self::SinglePrecision => "single precision",
+            Self::FewDigits => "few digits",
             Self::TooCoarse => "too coarse",
             Self::Undecidable => "not decidable",
             Self::Doubtful => "doubtful",
@@ -367,7 +371,7 @@ impl Grounds {
             own if own.contradicts() => 0,
             Cause::NotKnown | Cause::NotProbed => 1,
             Cause::Undecidable => 2,
-            Cause::SinglePrecision | Cause::TooCoarse => 3,
+            Cause::SinglePrecision | Cause::FewDigits | Cause::TooCoarse => 3,
             _ => 4,
         };
         self.0.iter().filter_map(of).min_by_key(rank)

@@ -317,7 +317,10 @@ impl Check<'_> {
 
     /// Replaces the causes of a stack that explodes by those that the micro-tests show, if they show any.
     fn explain_explosion(&mut self, installed: &dyn InstalledCode) {
-        let unstable = |item: &Item| item.found.contains("finite number");
+        let unstable = |item: &Item| {
+            let mut causes = item.causes.iter();
+            causes.any(|cause| cause.starts_with("the integration is unstable"))
+        };
         if !self.report.items.last().is_some_and(unstable)
             || self.code.check_task(TaskKind::Motion).is_err()
         {

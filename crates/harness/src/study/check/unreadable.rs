@@ -3,7 +3,7 @@
 use super::factor::{is_about, of_factor};
 use crate::code::{Failure, FailureKind};
 use crate::model::Case;
-use crate::series::{Sample, SeriesError};
+use crate::series::{NotFinite, Sample, SeriesError};
 use std::fs;
 use std::path::Path;
 
@@ -63,7 +63,7 @@ fn of_result(error: &SeriesError, failure: &Failure, case: Option<&Case>) -> Vec
         (SeriesError::Truncated { found, expected }, Some(case)) => {
             of_length(*found, *expected, case)
         }
-        (SeriesError::NotFinite { step, .. }, Some(case)) => of_explosion(*step, case),
+        (SeriesError::NotFinite(found), _) => of_not_finite(found, case),
         (SeriesError::WrongStep { .. } | SeriesError::Truncated { .. }, None) => {
             vec![
                 "a micro-test has one row for every step, from step 0 to `steps`, both included"
@@ -254,22 +254,114 @@ fn of_length(found: usize, expected: usize, case: &Case) -> Vec<String> {
     ]
 }
 
-fn of_explosion(step: u64, case: &Case) -> Vec<String> {
-    let longest = case.stack.longest_time_step(&case.convention);
-    let time_step = case.protocol.time_step;
-    vec![
-        format!(
+/// Largest magnitude of a number in units of r, k_n and m that a run shows unless it explodes.
+const LARGEST_USUAL: f64 = 100.0;
+
+/// Explains numbers that are not finite. An instability grows before it overflows, and takes everything along that touches.
+fn of_not_finite(found: &NotFinite, case: Option<&Case>) -> Vec<String> {
+    const DIVISION: &str = "a division by 0, such as the normal of two centres at the same place";
+    let columns = found.columns.join(", ");
+    if found.largest <= LARGEST_USUAL && found.finite > 0 {
+        let others = match found.row {
+            1 => "nothing has moved yet",
+            _ => "the others, and those of the rows before, are no larger than usual",
+        };
+        let mut causes = vec![format!(
+            "{columns} alone are no numbers, and {others}: this is no instability. What gives them is used before it is set, \
+             divided by 0, or the root of a negative number"
+        )];
+        causes.extend(written_alone(&found.columns));
+        return causes;
+    }
+    let (step, mut causes) = (found.step, Vec::new());
+    if let Some(case) = case {
+        let longest = case.stack.longest_time_step(&case.convention);
+        let time_step = case.protocol.time_step;
+        causes.push(format!(
             "the integration is unstable, at step {step} or before: time_step is {time_step}, and {longest:.2} would be \
                  stable with k_n = 1 and m = 1; a stiffness too high, a mass or an inertia too small, damping with the wrong \
                  sign, or a contact that pushes the wrong way"
+        ));
+    }
+    causes.push(DIVISION.to_owned());
+    causes
+}
+
+/// Says that a body without a place feels forces all the same, so that only what is written of it can be wrong; `columns` are
+/// those without numbers.
+fn written_alone(columns: &[&str]) -> Option<String> {
+    let is_force = |name: &&&str| {
+        ["floor_", "wall_", "f", "torque"]
+            .iter()
+            .any(|start| name.starts_with(start))
+    };
+    let mut forces = columns.iter().filter(is_force);
+    let contacts: Vec<String> = forces.clone().filter_map(|name| contact_of(name)).collect();
+    match forces.next() {
+        None => Some(
+            "all forces of the row are numbers, and would not be in such places: the motion is right, and what is written of it \
+             is not"
+                .to_owned(),
         ),
-        "a division by 0, such as the normal of two centres at the same place".to_owned(),
-    ]
+        Some(_) if contacts.is_empty() => None,
+        Some(_) => Some(format!("it is the force of {}", contacts.join(", "))),
+    }
+}
+
+/// Names the contact whose force a column holds.
+fn contact_of(column: &str) -> Option<String> {
+    if column == "wall_normal" || column == "wall_force" {
+        return Some("cylinder 1 on the top wall".to_owned());
+    }
+    let body = column
+        .strip_prefix("floor_n")
+        .or_else(|| column.strip_prefix("floor_t"))?;
+    Some(format!("cylinder {body} on the floor"))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn numbers_that_are_none_are_told_from_an_instability() {
+        let case = crate::study::yield_force::plan(
+            &crate::code::SettledCode::native(),
+            &crate::model::Stack::paper(0.3, 1e2),
+            crate::model::ContactConvention::TURNING,
+        )
+        .cases[0];
+        let told = |columns: &[&'static str], row: usize, finite: usize, largest: f64| {
+            let found = NotFinite {
+                row,
+                step: 160 * (row as u64 - 1),
+                columns: columns.to_vec(),
+                value: f64::NAN,
+                finite,
+                largest,
+            };
+            of_not_finite(&found, Some(&case)).join("; ")
+        };
+        let places = told(&["x2", "y2"], 37, 12, 2.7);
+        assert!(
+            places.starts_with("x2, y2 alone are no numbers"),
+            "{places}"
+        );
+        assert!(places.contains("the motion is right"), "{places}");
+        let force = told(&["floor_t2"], 37, 13, 2.7);
+        assert!(
+            force.contains("the force of cylinder 2 on the floor"),
+            "{force}"
+        );
+        assert!(told(&["theta2"], 1, 13, 2.7).contains("nothing has moved yet"));
+        for (finite, largest) in [(13, 1e9), (0, 2.7)] {
+            let exploded = told(&["x2"], 37, finite, largest);
+            assert!(
+                exploded.starts_with("the integration is unstable"),
+                "{exploded}"
+            );
+        }
+    }
 
     #[test]
     fn a_wrong_header_is_told_by_its_columns() {

@@ -267,8 +267,13 @@ fn contradiction(finding: &Finding) -> String {
     if let Some(growth) = finding.growth() {
         return format!("its probe {says} {declaration}: {growth}");
     }
+    let open = finding
+        .uncertainty
+        .filter(|_| finding.verdict != Verdict::Differs);
+    let open = open.map_or_else(String::new, |open| format!(" to within {open:.0e}"));
     let measured = finding.measured;
-    let measured = measured.map_or_else(|| "unknown".to_owned(), |value| format!("{value:.9}"));
+    let measured =
+        measured.map_or_else(|| "unknown".to_owned(), |value| format!("{value:.9}{open}"));
     let declared = finding.declared.unwrap_or(f64::NAN);
     let property = &finding.property;
     let because = finding.unknown_because();

@@ -26,7 +26,7 @@ mod written;
 pub use report::{Grade, Item, Outcome, Report};
 
 use super::convention::ask;
-use super::yield_force::planned_protocol;
+use super::yield_force::{largest_levers, planned_protocol};
 use crate::code::{Code, Failure, InstalledCode, Run, RunContext, TaskKind, keep_evidence};
 use crate::files::{Scratch, temporary};
 use crate::model::{Arrangement, Case, ContactConvention, Power, Problem, Stack};
@@ -58,7 +58,13 @@ pub fn case(convention: ContactConvention) -> Case {
     };
     let protocol = |planned_by: &ContactConvention| {
         let limit = quasistatic_limit(&Problem::new(stack, *planned_by).ok()?);
-        planned_protocol(&limit, &stack, planned_by, SPEED, TIME_STEP)
+        let levers = largest_levers(&limit, planned_by);
+        let longest = stack.longest_time_step(planned_by) / levers.sqrt();
+        let mut time_step = TIME_STEP;
+        while time_step > longest {
+            time_step *= 0.5;
+        }
+        planned_protocol(&limit, &stack, planned_by, SPEED, time_step)
     };
     let own = protocol(&convention).or_else(|| protocol(&ContactConvention::TURNING));
     Case {

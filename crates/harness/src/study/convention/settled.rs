@@ -67,9 +67,10 @@ fn take(settled: &mut Settled, key: ConventionKey, properties: &[&Property]) -> 
         }
         _ => {
             let Measured { value, uncertainty } = in_range(number(properties)?, ARM_RANGE);
-            if uncertainty > KNOWN_ARM {
+            let open = known(properties)?[0].measured.uncertainty;
+            if open > KNOWN_ARM {
                 return Err(format!(
-                    "its motions show it to within {uncertainty:.1} alone, and arms are told apart to within {KNOWN_ARM}"
+                    "its motions show it to within {open:.1} alone, and arms are told apart to within {KNOWN_ARM}"
                 ));
             }
             key.set_arm(&mut convention.arms, value);

@@ -282,7 +282,7 @@ fn planned_protocols(
 
 /// The largest product of torque arm and kinematic arm on the way to the peak, in r², and at least 1: what tangential
 /// springs hold the rotations with is so many times their stiffness.
-fn largest_levers(limit: &Limit, convention: &ContactConvention) -> f64 {
+pub(crate) fn largest_levers(limit: &Limit, convention: &ContactConvention) -> f64 {
     // The floor carries the largest overlaps.
     let overlap = limit.peak_z.unwrap_or_default();
     let Arms { pair, floor } = convention.arms;

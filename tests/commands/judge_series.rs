@@ -534,8 +534,8 @@ fn a_passport_that_does_not_say_the_arms_is_refused() {
         &unknown,
         &["changed.json", torque, "is not measured"],
     );
-    let beyond = with(&of_torque("measured", "-2".into()));
-    refused(&bench, &beyond, &["changed.json", torque, "-2"]);
+    let beyond = with(&of_torque("measured", "-200".into()));
+    refused(&bench, &beyond, &["changed.json", torque, "-200"]);
     let negative = with(&of_torque("uncertainty", (-1.0).into()));
     refused(&bench, &negative, &["the uncertainty of", torque, "-1"]);
     let differs = with(&|row| {

@@ -1,7 +1,7 @@
 //! `tristack bench`.
 
 use super::convention::settle;
-use super::options::{CodeParser, Format, RunOptions, selected_codes, whole};
+use super::options::{CodeParser, Format, RunOptions, check_compress, selected_codes, whole};
 use super::out::Out;
 use super::progress::during;
 use super::{CliError, ExitStatus, INTERRUPT};
@@ -48,6 +48,9 @@ pub(super) struct Arguments {
 
 /// Measures, prints and writes the costs.
 pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, CliError> {
+    if !arguments.pyramids {
+        check_compress(&arguments.codes, arguments.bodies)?;
+    }
     let mut codes = timed_codes(&arguments.codes)?;
     if arguments.codes.is_empty() && arguments.bodies != PAPER_BODIES {
         codes.retain(|code| code.name().stacks_spheres());

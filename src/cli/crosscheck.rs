@@ -4,8 +4,8 @@ use super::convention::settle;
 use super::explain::{RowName, explain, row_name};
 use super::interrupt::interrupted_after;
 use super::options::{
-    CodeOptions, Format, RowOptions, RunOptions, StackOptions, find_all, options_of, power,
-    selected_codes, tell_stand_ins,
+    CodeOptions, Format, RowOptions, RunOptions, StackOptions, check_compress, find_all,
+    options_of, power, selected_codes, tell_stand_ins,
 };
 use super::out::Out;
 use super::progress::{Reporter, during};
@@ -94,6 +94,8 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
         );
     }
     let named = arguments.codes.of_power(arguments.law)?;
+    let bodies = arguments.stacks.others.bodies;
+    check_compress(&named, bodies)?;
     let codes = match named.is_empty() {
         true => find_all(&arguments.stacks.codes(arguments.law)?),
         false => selected_codes(&named)?,

@@ -54,6 +54,7 @@ pub(super) fn explain(
     options: &RunOptions,
     (format, command): (Format, &str),
 ) -> Result<ExitStatus, CliError> {
+    row.code.check_compresses(stacks.others.bodies)?;
     let power = match row.code.accepts_any_convention() {
         true => power,
         false => row.code.law().power,

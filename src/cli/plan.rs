@@ -59,6 +59,7 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
         }
         .into());
     }
+    code.check_compresses(arguments.stacks.others.bodies)?;
     Out::claim(Some(root), &layout())?;
     let earlier = Plan::read(root)?;
     let rows = rows(arguments, earlier.as_ref())?;

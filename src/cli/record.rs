@@ -1,7 +1,7 @@
 //! `tristack record`.
 
 use super::convention::settle;
-use super::options::{CodeParser, RunOptions, recording_directory, selected_codes};
+use super::options::{CodeParser, RunOptions, check_compress, recording_directory, selected_codes};
 use super::progress::Reporter;
 use super::trajectories::plans;
 use super::{CliError, ExitStatus, INTERRUPT, complain, tell};
@@ -57,6 +57,9 @@ pub(super) fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
     if external.is_empty() {
         external = Code::built_in();
         external.retain(|code| !code.accepts_any_convention());
+    }
+    if arguments.only != Some(Set::Probe) {
+        check_compress(&external, PAPER_BODIES)?;
     }
     let codes = selected_codes(&external)?;
     let directory = recording_directory()?;

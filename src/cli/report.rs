@@ -1,14 +1,14 @@
 //! `tristack report`.
 
 use super::convention::settle;
-use super::options::{CodeParser, RunOptions, find_all, selected_codes};
+use super::options::{CodeParser, RunOptions, check_compress, find_all, selected_codes};
 use super::out::Out;
 use super::progress::Reporter;
 use super::published::{checkout, status as published_status};
 use super::{CliError, ExitStatus, INTERRUPT, complain, tell};
 use crate::code::Code;
 use crate::files::Layout;
-use crate::model::{Power, shown};
+use crate::model::{PAPER_BODIES, Power, shown};
 use crate::output::{Origin, friction, published_summary, report_files};
 use crate::paper::claims::{ClaimJudgement, ClaimVerdict, PaperTheory, Register, judge};
 use crate::paper::reproduction::{Reproduction, Scope, reproduce};
@@ -48,6 +48,7 @@ pub(super) struct Arguments {
 
 /// Reproduces the paper and writes the report.
 pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, CliError> {
+    check_compress(&arguments.codes, PAPER_BODIES)?;
     let [codes, hertz_codes] =
         [Power::Linear, Power::Hertz].map(|power| codes_of(&arguments.codes, power));
     let (codes, hertz_codes) = (codes?, hertz_codes?);

@@ -115,6 +115,11 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
     {
         return given::run(arguments, &given, path, command);
     }
+    // How many bodies a case file has is known later: a code that stacks spheres alone is refused then.
+    if arguments.case.is_none() || !arguments.code().stacks_spheres() {
+        let bodies = arguments.stack.bodies();
+        arguments.code().check_compresses(bodies)?;
+    }
     // Micro-tests go to the store, where the other commands find them.
     let settled = settle_one(&arguments.code(), &RunOptions::default())?;
     let case = case(arguments, &settled)?;

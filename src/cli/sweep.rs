@@ -65,8 +65,10 @@ fn without_runs(mut judgement: Judgement) -> Judgement {
 
 /// Measures the curve, prints and writes its rows.
 pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, CliError> {
+    let bodies = arguments.stack.bodies();
+    arguments.code.check_compresses(bodies)?;
     let code = settle_one(&arguments.code, &arguments.run)?;
-    let convention = arguments.convention.of(&code, arguments.stack.bodies())?;
+    let convention = arguments.convention.of(&code, bodies)?;
     let accepted = arguments.code.check_shortcuts(arguments.shortcuts);
     accepted.map_err(as_flag)?;
     let codes = selected_codes(std::slice::from_ref(&arguments.code))?;

@@ -2,7 +2,8 @@
 
 use super::convention::settle;
 use super::options::{
-    CodeOptions, Format, RunOptions, find_all, power, selected_codes, tell_stand_ins,
+    CodeOptions, Format, RunOptions, check_compress, find_all, power, selected_codes,
+    tell_stand_ins,
 };
 use super::progress::{Reporter, during};
 use super::stack_set::StackSet;
@@ -43,6 +44,8 @@ pub(super) struct Arguments {
 /// Plans, measures and prints.
 pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, CliError> {
     let named = arguments.codes.of_power(arguments.law)?;
+    let bodies = arguments.stacks.others.bodies;
+    check_compress(&named, bodies)?;
     let codes = match named.is_empty() {
         true => find_all(&arguments.stacks.codes(arguments.law)?),
         false => selected_codes(&named)?,
@@ -58,7 +61,6 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
     let temporary = std::env::temp_dir();
     let directory = Scratch::new().map_err(FileError::writing(&temporary))?;
     let context = RunContext::new(directory.path(), &INTERRUPT);
-    let bodies = arguments.stacks.others.bodies;
     let measured = during("timing a step of each code", || {
         durations(&outlook, &codes, bodies, (&settings, &context), |error| {
             tell!("the cost of a step could not be measured: {error}");

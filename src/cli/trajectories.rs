@@ -2,7 +2,9 @@
 
 use super::convention::settle;
 use super::interrupt::interrupted_after;
-use super::options::{CodeOptions, Format, RunOptions, selected_codes, tell_stand_ins, whole};
+use super::options::{
+    CodeOptions, Format, RunOptions, check_compress, selected_codes, tell_stand_ins, whole,
+};
 use super::out::Out;
 use super::progress::{Reporter, during};
 use super::{CliError, ExitStatus, tell, tell_grounds};
@@ -47,6 +49,7 @@ pub(super) struct Arguments {
 /// Runs and compares, prints and writes the rows.
 pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, CliError> {
     refuse_native(&arguments.codes.named)?;
+    check_compress(&arguments.codes.named, arguments.bodies)?;
     let mut codes = selected_codes(&arguments.codes.named)?;
     codes.retain(|selected| !selected.name.is_native());
     let files = ["trajectories.csv", "trajectories.md"];

@@ -326,6 +326,89 @@ fn a_code_without_micro_tests_is_checked_as_far_as_it_goes() {
     assert_eq!(status, 0);
 }
 
+/// A bench with the example as `mydem`, of which nothing is left but the micro-tests, after some replacements in its
+/// script.
+fn bench_of_pairs(change: &[[String; 2]]) -> Bench {
+    let without = ["stack = { files = [\"mydem.py\"] }\n", ""].map(str::to_owned);
+    bench_of(&[without], change)
+}
+
+#[test]
+fn a_code_without_a_stack_is_checked_and_probed() {
+    let bench = bench_of_pairs(&[]);
+    let (status, items) = check(&bench, "");
+    assert_eq!(status, 0, "{items:#?}");
+    let others = items
+        .iter()
+        .filter(|item| text(item, "outcome") != "passed");
+    let others: Vec<_> = others
+        .map(|item| (text(item, "item"), text(item, "outcome")))
+        .collect();
+    assert_eq!(others, [("task stack", "not-tested")]);
+    let shown = common::standard_output(&mut bench.tristack("check ./mydem"));
+    let last = shown.lines().last().unwrap_or_default();
+    assert_eq!(last, "next: tristack probe --codes ./mydem");
+    common::standard_output(&mut bench.tristack("probe --codes ./mydem --out passport"));
+    assert!(bench.path("passport/mydem.json").is_file());
+}
+
+#[test]
+fn a_mistake_in_a_code_without_a_stack_is_explained() {
+    let folders = table(include_str!("check/broken.toml"));
+    let mistake = "the damping acts on the first cylinder of a pair alone";
+    let mut folders = folders.iter();
+    let broken = folders.find(|own| own.mistake == mistake).expect("there");
+    let (status, items) = check(&bench_of_pairs(&broken.change), "");
+    assert_eq!(status, 2, "{items:#?}");
+    assert!(is_explained(&items, broken), "{items:#?}");
+}
+
+#[test]
+fn commands_that_compress_a_stack_refuse_a_code_without_one() {
+    let bench = bench_of_pairs(&[]);
+    let of_stacks = [
+        "crosscheck --codes ./mydem",
+        "crosscheck --explain ./mydem/0.3/100",
+        "time --codes ./mydem",
+        "trajectories --codes ./mydem",
+        "simulate --code ./mydem --mu 0.3 --stiffness 100",
+        "sweep --code ./mydem --mu 0.3 --stiffness 100",
+        "plan --code ./mydem --out away",
+        "bench --codes ./mydem",
+        "record --codes ./mydem",
+        "report --codes ./mydem",
+    ];
+    let of_spheres = ["crosscheck --bodies 3 --codes ./mydem"];
+    let lines = of_stacks.map(|line| (line, "stack"));
+    for (line, task) in lines
+        .into_iter()
+        .chain(of_spheres.map(|line| (line, "spheres")))
+    {
+        let output = bench.tristack(line).output().expect("it runs");
+        let error = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(1), "{line}: {error}");
+        let told = format!("error: ./mydem/code.toml: `tasks.{task}` is absent");
+        assert!(error.starts_with(&told), "{line}: {error}");
+    }
+    // Nothing was written, nor probed.
+    assert_only(&bench.path("."), &["mydem", "programs"]);
+}
+
+#[test]
+fn a_manifest_without_any_task_is_refused() {
+    let without = |key: &str| {
+        [
+            format!("{key} = {{ files = [\"mydem.py\"] }}"),
+            String::new(),
+        ]
+    };
+    let bench = bench_of(&["stack", "motion"].map(without), &[]);
+    let (status, items) = check(&bench, "");
+    assert_eq!(status, 1);
+    let found = text(&items[0], "found");
+    assert!(found.contains("at least one task: stack,"), "{found}");
+}
+
 #[test]
 fn a_manifest_or_a_program_that_is_not_there_is_told_and_nothing_follows() {
     let wrong: [(&str, &str, i32, &str, &str); 3] = [

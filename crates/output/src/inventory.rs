@@ -2,7 +2,7 @@
 
 use super::table::{Columns, DataTable};
 use crate::code::{Code, Identity, TaskKind};
-use crate::model::{Arms, ContactArms};
+use crate::model::{Arms, ContactArms, PAPER_BODIES};
 use crate::runs::SelectedCode;
 
 /// Returns the table of installed codes, one row per code of `codes`.
@@ -41,14 +41,20 @@ pub fn inventory(codes: &[SelectedCode]) -> DataTable<'static> {
     .convention(|(code, _)| Some(code.as_declared()?.convention().into()))
     .right("pair arm", |(code, _)| arms(code, |arms| arms.pair))
     .right("floor arm", |(code, _)| arms(code, |arms| arms.floor))
-    .text("deck_hash", |(code, _)| code.files_hash(TaskKind::Stack))
-    .means("SHA-256 of the deck")
+    .text("deck_hash", |(code, _)| deck_hash(code))
+    .means("SHA-256 of the deck of a stack; empty without a task `stack`")
     .shown("deck")
-    .cell(|(code, _)| code.files_hash(TaskKind::Stack)[..12].to_owned())
+    .cell(|(code, _)| deck_hash(code).map_or_else(String::new, |hash| hash[..12].to_owned()))
     .dispensable(1)
     .text("install", |(code, _)| code.installation_hint())
     .means("how to install it")
     .rows(rows)
+}
+
+/// The hash of the files with which a code compresses a stack, if it does.
+fn deck_hash(code: &Code) -> Option<String> {
+    let compresses = code.check_compresses(PAPER_BODIES).is_ok();
+    compresses.then(|| code.files_hash(TaskKind::Stack))
 }
 
 /// Formats declared arms for people, marked `(any)` where they are only the default of a code that accepts any.

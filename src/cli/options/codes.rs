@@ -3,7 +3,7 @@
 use crate::cli::code_names::CodeParser;
 use crate::cli::progress::during;
 use crate::cli::{CliError, tell};
-use crate::code::Code;
+use crate::code::{Code, ManifestError};
 use crate::model::{InvalidValue, Power};
 use crate::runs::{SelectedCode, in_parallel};
 use clap::Args;
@@ -37,6 +37,13 @@ impl CodeOptions {
             ),
         })
     }
+}
+
+/// Refuses codes whose manifests have no task that compresses stacks of this many `bodies`, before any of them is
+/// started.
+pub(in crate::cli) fn check_compress(codes: &[Code], bodies: u8) -> Result<(), ManifestError> {
+    let mut codes = codes.iter();
+    codes.try_for_each(|code| code.check_compresses(bodies))
 }
 
 /// Returns the named codes, each of which must be installed, or every code with the paper's law if none is named.

@@ -115,14 +115,16 @@ impl Definition {
         Ok(())
     }
 
-    /// Refuses a program without a task `stack`, an empty command or one with an unknown placeholder, and directories
-    /// for the program that depend on where tristack is started.
+    /// Refuses a program without any task, an empty command or one with an unknown placeholder, and directories for the
+    /// program that depend on where tristack is started.
     fn check_command(&self) -> Result<(), InvalidValue> {
         let Some(program) = &self.program else {
             return Ok(());
         };
-        if !self.tasks.contains_key(&TaskKind::Stack) {
-            return Err(refused("tasks.stack", "absent", "a table with `files`"));
+        if self.tasks.is_empty() {
+            let kinds = TaskKind::ALL.map(TaskKind::as_str).join(", ");
+            let accepted = format!("a table with at least one task: {kinds}");
+            return Err(refused("tasks", "without a task", accepted));
         }
         if program.command.is_empty() {
             return Err(refused("program.command", "[]", "a program and arguments"));

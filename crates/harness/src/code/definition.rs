@@ -59,10 +59,10 @@ impl Definition {
 
     /// Checks what the types cannot, fills in defaults, and reads the files of the tasks.
     fn finish(&mut self, family: &str, layers: &Layers) -> Result<(), InvalidValue> {
-        self.check()?;
         for kind in &self.without {
             self.tasks.remove(kind);
         }
+        self.check()?;
         family.clone_into(&mut self.family);
         if self.title.is_empty() {
             self.title.clone_from(&self.family);

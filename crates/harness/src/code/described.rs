@@ -4,9 +4,9 @@ use super::convention::Declaration;
 use super::difference::difference;
 use super::folder::{BUILT_IN, Folder};
 use super::manifest::{Definition, Integration, Mark, RefusedOutside, RefusedValues, TaskKind};
-use super::manifest_error::{ManifestError, refused};
+use super::manifest_error::{ManifestError, Place, refused};
 use super::search_path::SEARCH_PATH;
-use crate::model::{ContactConvention, InvalidValue, Law, Power, Preparation, Stack};
+use crate::model::{ContactConvention, InvalidValue, Law, PAPER_BODIES, Power, Preparation, Stack};
 use serde::{Serialize, Serializer};
 use std::cmp::Ordering;
 use std::collections::BTreeSet;
@@ -329,6 +329,7 @@ impl Code {
         let able = BUILT_IN_CODES.iter().filter(|code| runs(code));
         let able: Vec<&str> = able.map(Self::as_str).collect();
         let task = match kind {
+            TaskKind::Stack => "a stack",
             TaskKind::Pyramid => "a pyramid",
             TaskKind::Spheres => "a stack of spheres",
             TaskKind::SpheresMotion => "a micro-test of spheres",
@@ -336,6 +337,29 @@ impl Code {
         };
         let accepted = format!("one of {} for {task}", able.join(", "));
         Err(refused("code", self, accepted))
+    }
+
+    /// Refuses a code that compresses no stack of this many `bodies`, since its manifest has no task for it. For
+    /// commands that do nothing else.
+    ///
+    /// # Errors
+    /// Names the manifest and the table that it lacks.
+    pub fn check_compresses(&self, bodies: u8) -> Result<(), ManifestError> {
+        let definition = self.definition();
+        let (kind, stack) = match bodies {
+            PAPER_BODIES => (TaskKind::Stack, "stack"),
+            _ => (TaskKind::Spheres, "stack of spheres"),
+        };
+        if definition.runs(kind) {
+            return Ok(());
+        }
+        let message = format!(
+            "`tasks.{}` is absent, so that {self} compresses no {stack}; accepted here is a table with the `files` of that \
+             task (docs/your-own-code.md). `tristack probe`, `passport`, `impacts` and `check` need `tasks.motion` alone",
+            kind.as_str()
+        );
+        let path = definition.place.path.clone();
+        Err(ManifestError::new(Place { path, line: None }, &message))
     }
 
     /// Whether it can shorten runs.

@@ -28,31 +28,37 @@ const REPORTED: [&str; 7] = [
 /// Number of micro-tests that agree to the last digits only if the code has the integrator of the twin.
 const MANY_EXACT: usize = 5;
 
-/// Returns the items on the `series` of `case`, and on the micro-tests if there are any. Failed items are explained
-/// by the mistake that explains all of them, else by a gross mistake or the equations that fail, else by their own
-/// causes, else by the usual ones. `run` carries out another case with the code.
+/// A series of a stack, and the case that it is of.
+pub(super) type Compressed<'a> = (&'a Series, &'a Case);
+
+/// Returns the items on the `stack` and on the micro-tests, if there are any; `declared` is the convention of the
+/// code without them. Failed items are explained by the mistake that explains all of them, else by a gross mistake or
+/// the equations that fail, else by their own causes, else by the usual ones. `run` carries out another case with the
+/// code.
 pub(super) fn items(
-    series: &Series,
-    case: &Case,
+    stack: Option<Compressed>,
+    declared: ContactConvention,
     micro: Option<&Micro>,
     run: &dyn Fn(&Case) -> Option<Series>,
 ) -> Vec<Item> {
     let of_micro = items_of(micro);
-    let conventions = micro.map_or_else(|| vec![case.convention], Micro::conventions);
-    let convention = conventions.last().copied().unwrap_or(case.convention);
-    let known = Known::of(series, case, micro, convention);
-    let depends_on_step = micro.is_some_and(Micro::depends_on_step);
-    let finer = || {
-        let mut fine = *case;
-        fine.protocol.time_step *= 0.5;
-        let series = depends_on_step.then(|| run(&fine)).flatten()?;
-        Some(Evidence::of_stack(&series, &fine, convention, false))
-    };
-    let scheme = Scheme {
-        is_late: micro.is_some_and(Micro::forces_are_late),
-        finer: &finer,
-    };
-    let mut items = stack::items(series, case, &known.stacks, &scheme);
+    let conventions = micro.map_or_else(|| vec![declared], Micro::conventions);
+    let convention = conventions.last().copied().unwrap_or(declared);
+    let known = Known::of(stack, micro, convention);
+    let mut items = stack.map_or_else(Vec::new, |(series, case)| {
+        let depends_on_step = micro.is_some_and(Micro::depends_on_step);
+        let finer = || {
+            let mut fine = *case;
+            fine.protocol.time_step *= 0.5;
+            let series = depends_on_step.then(|| run(&fine)).flatten()?;
+            Some(Evidence::of_stack(&series, &fine, convention, false))
+        };
+        let scheme = Scheme {
+            is_late: micro.is_some_and(Micro::forces_are_late),
+            finer: &finer,
+        };
+        stack::items(series, case, &known.stacks, &scheme)
+    });
     items.extend(of_micro);
     items.extend(known.item());
     if !items.iter().any(is_to_be_explained) {
@@ -62,7 +68,7 @@ pub(super) fn items(
         .into_iter()
         .enumerate()
         .find_map(|(place, convention)| {
-            let causes = Known::of(series, case, micro, convention).causes();
+            let causes = Known::of(stack, micro, convention).causes();
             (!causes.is_empty()).then_some((place, causes))
         });
     let (place, causes) = found.unwrap_or_default();
@@ -76,10 +82,11 @@ pub(super) fn items(
             .collect();
     }
     let located = match causes.is_empty() {
-        true => located(&known, series, case, micro),
+        true => located(&known, stack, micro),
         false => Located::default(),
     };
-    let plain = at_first_sight(series, &case.stack).filter(|_| !located.is_known);
+    let plain = stack.and_then(|(series, case)| at_first_sight(series, &case.stack));
+    let plain = plain.filter(|_| !located.is_known);
     for item in items.iter_mut().filter(|item| is_to_be_explained(item)) {
         if micro::is_step_effect(item) {
             // What vanishes with the time step needs no place, but a name if there is one.
@@ -130,7 +137,7 @@ struct Located {
 
 /// Locates a mistake that is not in the table: by the equations that fail in the micro-tests, or else by the place in
 /// the stack.
-fn located(known: &Known, series: &Series, case: &Case, micro: Option<&Micro>) -> Located {
+fn located(known: &Known, stack: Option<Compressed>, micro: Option<&Micro>) -> Located {
     let Some(micro) = micro else {
         return Located::default();
     };
@@ -146,10 +153,13 @@ fn located(known: &Known, series: &Series, case: &Case, micro: Option<&Micro>) -
         },
         _ if !known.is_exact => Located::default(),
         _ => {
-            let convention = known.stacks[0].twin.convention;
-            let stack = Evidence::of_stack(series, case, convention, false);
+            let of_stack = stack.zip(known.stacks.first());
+            let beginning = of_stack.and_then(|((series, case), first)| {
+                let convention = first.twin.convention;
+                Evidence::of_stack(series, case, convention, false).beginning()
+            });
             Located {
-                texts: stack.beginning().into_iter().collect(),
+                texts: beginning.into_iter().collect(),
                 ..Located::default()
             }
         }
@@ -188,7 +198,8 @@ pub(super) fn of_motions(micro: &Micro) -> Vec<String> {
 
 /// The results of a code, compared with those of its twins.
 struct Known {
-    /// The stack up to its peak; also to its end, if law and integrator are those of the twin.
+    /// The stack up to its peak; also to its end, if law and integrator are those of the twin. None if the code
+    /// compresses none.
     stacks: Vec<Evidence>,
     motions: Vec<Evidence>,
     /// Whether the code has the law and the integrator of the twin.
@@ -196,12 +207,7 @@ struct Known {
 }
 
 impl Known {
-    fn of(
-        series: &Series,
-        case: &Case,
-        micro: Option<&Micro>,
-        convention: ContactConvention,
-    ) -> Self {
+    fn of(stack: Option<Compressed>, micro: Option<&Micro>, convention: ContactConvention) -> Self {
         let answers = micro.map_or(&[][..], |micro| &micro.answers);
         let motions = answers.iter();
         let mut motions: Vec<Evidence> = motions
@@ -216,10 +222,12 @@ impl Known {
         // Some motions may be the same although the integrator is not.
         let is_exact = exact >= MANY_EXACT && !micro.is_some_and(Micro::depends_on_step);
         let is_wrong = micro.is_some_and(|micro| micro.items().iter().any(is_to_be_explained));
-        let mut stacks = vec![Evidence::of_stack(series, case, convention, false)];
+        let part =
+            |(series, case), is_whole| Evidence::of_stack(series, case, convention, is_whole);
+        let mut stacks: Vec<Evidence> = stack.map(|own| part(own, false)).into_iter().collect();
         if is_exact {
-            stacks.push(Evidence::of_stack(series, case, convention, true));
-            stacks[0].same = ROUNDING;
+            stacks.iter_mut().for_each(|own| own.same = ROUNDING);
+            stacks.extend(stack.map(|own| part(own, true)));
             motions.iter_mut().for_each(|own| own.same = ROUNDING);
         } else if !is_wrong {
             // No item shows a mistake in them, so what is far from the twin comes from another integrator.

@@ -44,6 +44,11 @@ const STIFFNESS: f64 = 100.0;
 /// Wall speed in the unit of planned measurements ([`planned_protocol`]): twice the fastest of them.
 const SPEED: f64 = 4e-3;
 const TIME_STEP: f64 = 0.1;
+/// The item on the run of a stack.
+const STACK: &str = "task stack";
+/// Why it is not tested, if it is not.
+const NO_STACK: &str = "the manifest has no task `stack`: the code can have a passport and impacts, but no yield force, \
+                        until code.toml has a table `[tasks.stack]` (docs/your-own-code.md)";
 /// Prefix of the name of the directory that keeps the runs of a failed check.
 const EVIDENCE: &str = "tristack-check-";
 
@@ -113,12 +118,20 @@ fn keep(place: &Scratch, report: &mut Report) -> io::Result<()> {
 
 /// Returns the command that judges `code`, whose folder is `folder`.
 fn judged_by(code: &Code, folder: &str) -> String {
-    let law = match code.law().power {
-        Power::Linear => "",
-        Power::Hertz => "--law hertz ",
-        _ => return format!("tristack probe --codes {folder}"),
+    let runs = |kind| code.check_task(kind).is_ok();
+    let power = match code.law().power {
+        Power::Linear => Some(""),
+        Power::Hertz => Some("--law hertz "),
+        _ => None,
     };
-    format!("tristack crosscheck {law}--codes {folder}")
+    match power {
+        Some(law) if runs(TaskKind::Stack) => format!("tristack crosscheck {law}--codes {folder}"),
+        Some(law) if runs(TaskKind::Spheres) => {
+            format!("tristack crosscheck --bodies 3 {law}--codes {folder}")
+        }
+        _ if runs(TaskKind::Motion) => format!("tristack probe --codes {folder}"),
+        _ => format!("add a task `motion` or `stack` to code.toml, then: tristack check {folder}"),
+    }
 }
 
 /// A check in progress.
@@ -134,25 +147,38 @@ impl Check<'_> {
     fn go_through(&mut self) -> Option<()> {
         self.manifest();
         let installed = self.program()?;
-        let case = case(self.code.declaration().convention);
-        let Some(run) = self.stack(installed.as_ref(), &case) else {
-            self.explain_explosion(installed.as_ref());
-            return None;
+        let declared = self.code.declaration().convention;
+        let case = case(declared);
+        let run = match self.code.check_task(TaskKind::Stack) {
+            Ok(()) => {
+                let Some(run) = self.stack(installed.as_ref(), &case) else {
+                    self.explain_explosion(installed.as_ref());
+                    return None;
+                };
+                Some(run)
+            }
+            Err(_) => {
+                self.add(Item::not_tested(Grade::Mandatory, STACK, NO_STACK));
+                None
+            }
         };
         let micro = self.micro_tests(installed.as_ref())?;
         let finer = |case: &Case| {
             let run = self.run(installed.as_ref(), case, "finer")?;
             Some(run.series)
         };
-        let compared = diagnosis::items(&run.series, &case, micro.as_ref(), &finer);
+        let stack = run.as_ref().map(|run| (&run.series, &case));
+        let compared = diagnosis::items(stack, declared, micro.as_ref(), &finer);
         self.report.items.extend(compared);
         let is_late = micro.as_ref().is_some_and(Micro::forces_are_late);
         self.spheres(installed.as_ref(), is_late);
-        let again = self.run(installed.as_ref(), &case, "again");
-        self.add(same_bits(
-            &run.series,
-            again.as_ref().map(|run| &run.series),
-        ));
+        if let Some(run) = &run {
+            let again = self.run(installed.as_ref(), &case, "again");
+            self.add(same_bits(
+                &run.series,
+                again.as_ref().map(|run| &run.series),
+            ));
+        }
         self.report
             .items
             .extend(information(&self.code, micro.as_ref()));
@@ -227,7 +253,6 @@ impl Check<'_> {
 
     /// Runs a small stack, whose result must be complete.
     fn stack(&mut self, installed: &dyn InstalledCode, case: &Case) -> Option<Run> {
-        const NAME: &str = "task stack";
         let outcome = self.try_run(installed, case, "stack");
         match outcome {
             Ok(run) => {
@@ -237,11 +262,11 @@ impl Check<'_> {
                     case.total_steps(),
                     run.provenance.seconds
                 );
-                self.add(Item::passed(Grade::Mandatory, NAME, found));
+                self.add(Item::passed(Grade::Mandatory, STACK, found));
                 Some(run)
             }
             Err(failure) => {
-                self.fail(NAME, failure.as_deref(), Some(case));
+                self.fail(STACK, failure.as_deref(), Some(case));
                 None
             }
         }

@@ -1,7 +1,9 @@
 //! `tristack bench`.
 
 use super::convention::settle;
-use super::options::{CodeParser, Format, RunOptions, check_compress, selected_codes, whole};
+use super::options::{
+    CodeList, CodeListParser, Format, RunOptions, check_compress, selected_codes, whole,
+};
 use super::out::Out;
 use super::progress::during;
 use super::{CliError, ExitStatus, INTERRUPT};
@@ -24,8 +26,8 @@ use std::path::PathBuf;
 #[command(after_help = "Example: tristack bench --codes native,lammps --repeats 3")]
 pub(super) struct Arguments {
     /// Codes to time, separated by commas; each must be installed [default: the first variant of every installed code]
-    #[arg(long, alias = "code", value_parser = CodeParser, value_delimiter = ',', value_name = "C1,C2")]
-    codes: Vec<Code>,
+    #[arg(long, alias = "code", value_parser = CodeListParser, value_name = "C1,C2")]
+    codes: Vec<CodeList>,
     /// Number of measurements, whose medians are printed
     #[arg(long, value_name = "N", value_parser = whole::<usize>(1..=1000))]
     repeats: Option<usize>,
@@ -49,9 +51,9 @@ pub(super) struct Arguments {
 /// Measures, prints and writes the costs.
 pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, CliError> {
     if !arguments.pyramids {
-        check_compress(&arguments.codes, arguments.bodies)?;
+        check_compress(&CodeList::all(&arguments.codes), arguments.bodies)?;
     }
-    let mut codes = timed_codes(&arguments.codes)?;
+    let mut codes = timed_codes(&CodeList::all(&arguments.codes))?;
     if arguments.codes.is_empty() && arguments.bodies != PAPER_BODIES {
         codes.retain(|code| code.name().stacks_spheres());
     }

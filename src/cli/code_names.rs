@@ -1,7 +1,7 @@
 //! Names of codes on the command line: built-in codes, folders by their path, and folders in the user's data
 //! directory.
 
-use crate::code::{Code, ManifestError};
+use crate::code::{Code, ManifestError, folder_argument};
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::error::ErrorKind;
 use std::ffi::OsStr;
@@ -43,6 +43,77 @@ impl TypedValueParser for CodeParser {
     fn possible_values(&self) -> Option<Box<dyn Iterator<Item = PossibleValue> + '_>> {
         Some(Box::new(shown_names().into_iter().map(PossibleValue::new)))
     }
+}
+
+/// The codes that one argument names.
+#[derive(Debug, Clone)]
+pub(super) struct CodeList(Vec<Code>);
+
+impl CodeList {
+    /// Returns the codes of several such arguments in their order.
+    pub fn all(lists: &[Self]) -> Vec<Code> {
+        let codes = lists.iter().flat_map(|list| &list.0);
+        codes.cloned().collect()
+    }
+}
+
+/// Reads codes that are separated by commas, each in the form of [`CodeParser`]. A path of an existing folder is that
+/// folder, whatever commas it has.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct CodeListParser;
+
+impl TypedValueParser for CodeListParser {
+    type Value = CodeList;
+
+    fn parse_ref(
+        &self,
+        command: &clap::Command,
+        argument: Option<&clap::Arg>,
+        value: &OsStr,
+    ) -> Result<CodeList, clap::Error> {
+        let text = value.to_string_lossy();
+        let words: Vec<&str> = match text.contains('/') && is_folder(&text) {
+            true => vec![&text],
+            false => text.split(',').collect(),
+        };
+        let read = |word: &&str| CodeParser.parse_ref(command, argument, OsStr::new(word));
+        let codes: Result<_, _> = words.iter().map(read).collect();
+        codes.map(CodeList).map_err(|error| {
+            let Some(folder) = folder_with_comma(&text) else {
+                return error;
+            };
+            let flag = argument.map_or_else(String::new, |argument| format!("{argument}: "));
+            let message = format!(
+                "{flag}`{text}` is a list with commas, and the name of the folder `{folder}` has a comma; accepted is its path \
+                 alone, {}, and the flag again for other codes\n",
+                folder_argument(&folder)
+            );
+            clap::Error::raw(ErrorKind::InvalidValue, message).with_cmd(command)
+        })
+    }
+
+    fn possible_values(&self) -> Option<Box<dyn Iterator<Item = PossibleValue> + '_>> {
+        CodeParser.possible_values()
+    }
+}
+
+/// Whether `text`, PATH or PATH:NAME, is the path of a folder that exists.
+fn is_folder(text: &str) -> bool {
+    let of_variant = text.rsplit_once(':').map(|(path, _)| path);
+    let mut paths = [Some(text), of_variant].into_iter().flatten();
+    paths.any(|path| Path::new(path).is_dir())
+}
+
+/// Returns the part of the list `text` that is a folder whose name has a comma, if there is one.
+fn folder_with_comma(text: &str) -> Option<String> {
+    let words: Vec<&str> = text.split(',').collect();
+    let starts = 0..words.len();
+    let mut runs = starts.flat_map(|start| {
+        let ends = start + 2..=words.len();
+        let words = &words;
+        ends.map(move |end| words[start..end].join(","))
+    });
+    runs.find(|run| is_folder(run))
 }
 
 /// Returns the code that `text` names, in the form that [`CodeParser`] reads; `None` if no code has this name.

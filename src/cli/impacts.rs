@@ -46,7 +46,7 @@ impl Arguments {
     /// Returns the named codes, or else every code with the law that is asked for, by default the paper's.
     fn codes(&self) -> Result<Vec<SelectedCode>, CliError> {
         let Some(power) = self.convention.law.power() else {
-            return selected_codes(&self.codes.named);
+            return selected_codes(&self.codes.named());
         };
         let named = self.codes.of_power(power)?;
         match named.is_empty() {

@@ -45,7 +45,7 @@ pub(super) struct Arguments {
 
 /// Probes the codes and prints the findings.
 pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, CliError> {
-    let codes = selected_codes(&arguments.codes.named)?;
+    let codes = selected_codes(&arguments.codes.named())?;
     let out = Out::claim(arguments.out.as_deref(), &layout())?;
     if let Some(directory) = &arguments.passports {
         std::fs::create_dir_all(directory).map_err(FileError::writing(directory))?;

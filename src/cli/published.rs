@@ -32,7 +32,8 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
         accepted: "this together with --published DIR, a checkout of the authors' repository"
             .to_owned(),
     })?;
-    if let Some(other) = arguments.codes.named.iter().find(|code| !code.is_native()) {
+    let named = arguments.codes.named();
+    if let Some(other) = named.iter().find(|code| !code.is_native()) {
         return Err(InvalidValue {
             key: "--codes".to_owned(),
             value: other.to_string(),

@@ -1,7 +1,9 @@
 //! `tristack record`.
 
 use super::convention::settle;
-use super::options::{CodeParser, RunOptions, check_compress, recording_directory, selected_codes};
+use super::options::{
+    CodeList, CodeListParser, RunOptions, check_compress, recording_directory, selected_codes,
+};
 use super::progress::Reporter;
 use super::trajectories::plans;
 use super::{CliError, ExitStatus, INTERRUPT, complain, tell};
@@ -42,8 +44,8 @@ enum Set {
 #[command(after_help = "Example: tristack record --codes yade --fresh")]
 pub(super) struct Arguments {
     /// Codes to record, separated by commas; each must be installed [default: all external codes]
-    #[arg(long, alias = "code", value_parser = CodeParser, value_delimiter = ',', value_name = "C1,C2")]
-    codes: Vec<Code>,
+    #[arg(long, alias = "code", value_parser = CodeListParser, value_name = "C1,C2")]
+    codes: Vec<CodeList>,
     /// Record only the runs of this command and keep the others [default: replace all recorded runs]
     #[arg(long, value_enum, value_name = "COMMAND")]
     only: Option<Set>,
@@ -53,7 +55,7 @@ pub(super) struct Arguments {
 
 /// Records code by code; a code with a failed run keeps its old recordings.
 pub(super) fn run(arguments: &Arguments) -> Result<ExitStatus, CliError> {
-    let mut external = arguments.codes.clone();
+    let mut external = CodeList::all(&arguments.codes);
     if external.is_empty() {
         external = Code::built_in();
         external.retain(|code| !code.accepts_any_convention());

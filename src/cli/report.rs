@@ -1,7 +1,9 @@
 //! `tristack report`.
 
 use super::convention::settle;
-use super::options::{CodeParser, RunOptions, check_compress, find_all, selected_codes};
+use super::options::{
+    CodeList, CodeListParser, RunOptions, check_compress, find_all, selected_codes,
+};
 use super::out::Out;
 use super::progress::Reporter;
 use super::published::{checkout, status as published_status};
@@ -30,8 +32,8 @@ const MOST_ROWS: usize = 10;
 pub(super) struct Arguments {
     /// Codes to run besides native, separated by commas; each must be installed [default: all, recorded if
     /// necessary]
-    #[arg(long, alias = "code", value_parser = CodeParser, value_delimiter = ',', value_name = "C1,C2")]
-    codes: Vec<Code>,
+    #[arg(long, alias = "code", value_parser = CodeListParser, value_name = "C1,C2")]
+    codes: Vec<CodeList>,
     /// Also run all of figure 2(a) at the paper's literal wall speed and time step, for some ten minutes
     #[arg(long)]
     literal: bool,
@@ -48,9 +50,9 @@ pub(super) struct Arguments {
 
 /// Reproduces the paper and writes the report.
 pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, CliError> {
-    check_compress(&arguments.codes, PAPER_BODIES)?;
-    let [codes, hertz_codes] =
-        [Power::Linear, Power::Hertz].map(|power| codes_of(&arguments.codes, power));
+    let named = CodeList::all(&arguments.codes);
+    check_compress(&named, PAPER_BODIES)?;
+    let [codes, hertz_codes] = [Power::Linear, Power::Hertz].map(|power| codes_of(&named, power));
     let (codes, hertz_codes) = (codes?, hertz_codes?);
     let register = Register::paper()?;
     let checkout = arguments.published.as_deref().map(checkout);

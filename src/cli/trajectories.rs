@@ -48,9 +48,10 @@ pub(super) struct Arguments {
 
 /// Runs and compares, prints and writes the rows.
 pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, CliError> {
-    refuse_native(&arguments.codes.named)?;
-    check_compress(&arguments.codes.named, arguments.bodies)?;
-    let mut codes = selected_codes(&arguments.codes.named)?;
+    let named = arguments.codes.named();
+    refuse_native(&named)?;
+    check_compress(&named, arguments.bodies)?;
+    let mut codes = selected_codes(&named)?;
     codes.retain(|selected| !selected.name.is_native());
     let files = ["trajectories.csv", "trajectories.md"];
     let layout = Layout::tables("trajectories.json", &files);

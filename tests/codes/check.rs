@@ -233,6 +233,46 @@ fn the_example_passes_and_is_told_what_comes_next() {
     assert_only(&bench.path("."), &["mydem", "programs"]);
 }
 
+/// What comes next can be given to a shell as it stands, and a path with commas and spaces is one folder.
+#[test]
+fn a_folder_with_commas_and_spaces_is_told_so_that_a_shell_takes_it() {
+    let bench = Bench::with_system_programs();
+    let name = "my code, new";
+    code_folder(EXAMPLE, &bench.path(name), |manifest| {
+        manifest.replace("stack = { files = [\"mydem.py\"] }\n", "")
+    });
+    let tristack = |words: &[&str]| {
+        let output = bench.tristack("").args(words).output().expect("it runs");
+        let shown = String::from_utf8_lossy(&output.stdout).into_owned();
+        let told = String::from_utf8_lossy(&output.stderr).into_owned();
+        (output.status.code(), shown, told)
+    };
+    let (status, shown, _) = tristack(&["check", name]);
+    let last = shown.lines().last().unwrap_or_default();
+    assert_eq!(last, "next: tristack probe --codes './my code, new'");
+    assert_eq!(status, Some(0));
+    let together = ["probe", "--codes", "./my code, new", "--codes", "native"];
+    let (status, shown, told) = tristack(&together);
+    assert_eq!(status, Some(0), "{told}");
+    assert!(
+        shown.contains("mydem") && shown.contains("native"),
+        "{shown}"
+    );
+    // A list that holds it is refused, and says how it is written.
+    let (status, _, told) = tristack(&["probe", "--codes", "native,./my code, new"]);
+    assert_eq!(status, Some(1));
+    let accepted =
+        "accepted is its path alone, './my code, new', and the flag again for other codes";
+    assert!(told.contains(accepted), "{told}");
+    fs::write(bench.path(name).join("code.toml"), "nme = 1").expect("it can be written");
+    let (_, shown, _) = tristack(&["check", name]);
+    let last = shown.lines().last().unwrap_or_default();
+    assert_eq!(
+        last,
+        "next: mend the manifest, then: tristack check './my code, new'"
+    );
+}
+
 /// Rows of the quick profile that are made again; all of them take minutes.
 const ROWS_AGAIN: [(&str, &str); 2] = [("0.12", "100"), ("0.4", "10000")];
 

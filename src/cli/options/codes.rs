@@ -1,6 +1,6 @@
 //! The codes that a command runs.
 
-use crate::cli::code_names::CodeParser;
+use crate::cli::code_names::{CodeList, CodeListParser};
 use crate::cli::progress::during;
 use crate::cli::{CliError, tell};
 use crate::code::{Code, ManifestError};
@@ -12,16 +12,21 @@ use clap::Args;
 #[derive(Debug, Clone, Args)]
 pub(in crate::cli) struct CodeOptions {
     /// Codes to run, separated by commas; each must be installed [default: all, recorded if necessary]
-    #[arg(id = "codes", long = "codes", alias = "code", value_parser = CodeParser, value_delimiter = ',', value_name = "C1,C2")]
-    pub named: Vec<Code>,
+    #[arg(id = "codes", long = "codes", alias = "code", value_parser = CodeListParser, value_name = "C1,C2")]
+    lists: Vec<CodeList>,
 }
 
 impl CodeOptions {
+    /// Returns the named codes.
+    pub fn named(&self) -> Vec<Code> {
+        CodeList::all(&self.lists)
+    }
+
     /// Returns the named codes, each of which must have a law of this power.
     pub fn of_power(&self, power: Power) -> Result<Vec<Code>, InvalidValue> {
-        let mut named = self.named.iter();
-        let Some(other) = named.find(|code| !code.has_power(power)) else {
-            return Ok(self.named.clone());
+        let named = self.named();
+        let Some(other) = named.iter().find(|code| !code.has_power(power)) else {
+            return Ok(named);
         };
         let names: Vec<String> = Code::with_power(power)
             .into_iter()

@@ -13,7 +13,7 @@ mod runs;
 mod stack;
 mod values;
 
-pub(super) use super::code_names::CodeParser;
+pub(super) use super::code_names::{CodeList, CodeListParser, CodeParser};
 pub(super) use amount::{moment, size};
 pub(super) use codes::{CodeOptions, check_compress, find_all, selected_codes, tell_stand_ins};
 pub(super) use convention::{ConventionOptions, history_update, power};

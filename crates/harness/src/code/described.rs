@@ -6,7 +6,10 @@ use super::folder::{BUILT_IN, Folder};
 use super::manifest::{Definition, Integration, Mark, RefusedOutside, RefusedValues, TaskKind};
 use super::manifest_error::{ManifestError, Place, refused};
 use super::search_path::SEARCH_PATH;
-use crate::model::{ContactConvention, InvalidValue, Law, PAPER_BODIES, Power, Preparation, Stack};
+use crate::model::{
+    ContactConvention, InvalidValue, Law, PAPER_BODIES, Power, Preparation, Stack, shell_quoted,
+    shown,
+};
 use serde::{Serialize, Serializer};
 use std::cmp::Ordering;
 use std::collections::BTreeSet;
@@ -434,6 +437,16 @@ impl Code {
             [] => "in the search path".to_owned(),
             places => format!("in {}", places.join(" or ")),
         }
+    }
+}
+
+/// Returns the path of a folder, or FOLDER:NAME, as it is given to `--codes` in a shell: quoted where it must be, and
+/// with a `/`, without which it would be the name of a code.
+pub fn folder_argument(folder: &str) -> String {
+    let folder = shown(Path::new(folder));
+    match folder.contains('/') {
+        true => shell_quoted(&folder),
+        false => shell_quoted(&format!("./{folder}")),
     }
 }
 

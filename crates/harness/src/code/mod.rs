@@ -38,7 +38,7 @@ mod witness;
 mod written;
 
 pub use convention::{ConventionKey, Declaration, KnownConvention, Settled, Unknown};
-pub use described::Code;
+pub use described::{Code, folder_argument};
 pub use failure::{Failure, FailureKind};
 pub use format::{ParameterFormat, ResultFormat, pyramid_in_log};
 pub use full_parameters::PARAMETERS;

@@ -27,7 +27,9 @@ pub use report::{Grade, Item, Outcome, Report};
 
 use super::convention::ask;
 use super::yield_force::{largest_levers, planned_protocol};
-use crate::code::{Code, Failure, InstalledCode, Run, RunContext, TaskKind, keep_evidence};
+use crate::code::{
+    Code, Failure, InstalledCode, Run, RunContext, TaskKind, folder_argument, keep_evidence,
+};
 use crate::files::{Scratch, temporary};
 use crate::model::{Arrangement, Case, ContactConvention, Power, Problem, Stack};
 use crate::theory::quasistatic_limit;
@@ -93,6 +95,7 @@ pub fn check(code: &Code, folder: &str, context: &RunContext) -> io::Result<Repo
         directory: place.path(),
     };
     let completed = check.go_through();
+    let folder = &folder_argument(folder);
     let mut report = check.report;
     report.next = match completed.is_some() && report.failed_grade().is_none() {
         true => judged_by(code, folder),
@@ -116,7 +119,7 @@ fn keep(place: &Scratch, report: &mut Report) -> io::Result<()> {
     Ok(())
 }
 
-/// Returns the command that judges `code`, whose folder is `folder`.
+/// Returns the command that judges `code`, whose folder a shell is given as `folder`.
 fn judged_by(code: &Code, folder: &str) -> String {
     let runs = |kind| code.check_task(kind).is_ok();
     let power = match code.law().power {

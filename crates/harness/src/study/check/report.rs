@@ -1,5 +1,6 @@
 //! The result of a check: one item per question, in three grades.
 
+use crate::code::folder_argument;
 use serde::Serialize;
 
 /// What an item decides.
@@ -115,7 +116,10 @@ impl Report {
                 reason,
                 causes,
             )],
-            next: format!("mend the manifest, then: tristack check {folder}"),
+            next: format!(
+                "mend the manifest, then: tristack check {}",
+                folder_argument(folder)
+            ),
         }
     }
 

@@ -17,7 +17,8 @@ use std::path::Path;
 /// Goes through what is mandatory (manifest, program, a small task), what mechanics and the task demand (weight on the
 /// floor, balance of forces, signs and units, symmetry, the parameters as micro-tests measure them), and what is worth
 /// knowing (reproducible bits, the measured convention). For each failure it says what was expected, what was found, and
-/// which mistakes fit that. Its runs are made anew and not kept.
+/// which mistakes fit that. There is no --store: its runs are made anew in every check, since a stored run would be that of an
+/// earlier state of what is being checked, and they are not kept.
 #[derive(Debug, Args)]
 #[command(after_help = "Example: tristack check ./mydem")]
 pub(super) struct Arguments {

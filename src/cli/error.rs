@@ -97,7 +97,7 @@ pub enum CliError {
     #[error(transparent)]
     Store(#[from] StoreError),
     /// A code that was named is not installed.
-    #[error("{0} is not installed: its program is not {places}; install it with: {hint}", places = .0.places(), hint = .0.installation_hint())]
+    #[error("{0} is not installed: {why}", why = .0.absence())]
     MissingCode(Code),
     /// A run that the whole report depends on failed.
     #[error(transparent)]

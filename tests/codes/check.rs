@@ -6,6 +6,7 @@ use rayon::prelude::*;
 use serde::Deserialize;
 use serde_json::Value;
 use std::fs;
+use std::os::unix::fs::PermissionsExt;
 use std::path::Path;
 use tristack::code::Code;
 
@@ -483,6 +484,30 @@ fn a_manifest_or_a_program_that_is_not_there_is_told_and_nothing_follows() {
         let told = format!("{} {}", text(last, "found"), text(last, "causes"));
         assert!(told.contains(words), "{told}");
     }
+}
+
+#[test]
+fn a_program_that_is_not_executable_is_told() {
+    let command = [
+        "command = [\"python3\", \"{deck}\"]",
+        "command = [\"mydem.py\"]\nsearch = [\"{folder}\"]",
+    ];
+    let bench = bench_of(&[command.map(str::to_owned)], &[]);
+    let script = bench.path("mydem/mydem.py");
+    fs::set_permissions(&script, fs::Permissions::from_mode(0o644)).expect("its permissions");
+    let (status, items) = check(&bench, "");
+    let last = items.last().expect("an item");
+    assert_eq!((status, text(last, "item")), (3, "program"));
+    let found = text(last, "found");
+    let expected = "mydem/mydem.py is there, but it is not executable";
+    assert!(found.ends_with(expected), "{found}");
+    let causes = text(last, "causes");
+    assert!(causes.contains("chmod +x /"), "{causes}");
+    assert!(!causes.contains("misspelt"), "{causes}");
+    let output = bench.tristack("probe --codes ./mydem").output();
+    let error = String::from_utf8(output.expect("it runs").stderr).expect("text");
+    let told = "is there, but not executable; accepted is one that is: chmod +x /";
+    assert!(error.contains(told), "{error}");
 }
 
 /// Behaviour of a script before it does its task, options, exit status, and words by which it is told.

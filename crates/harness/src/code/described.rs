@@ -5,7 +5,7 @@ use super::difference::difference;
 use super::folder::{BUILT_IN, Folder};
 use super::manifest::{Definition, Integration, Mark, RefusedOutside, RefusedValues, TaskKind};
 use super::manifest_error::{ManifestError, Place, refused};
-use super::search_path::SEARCH_PATH;
+use super::search_path::{SEARCH_PATH, find_not_executable};
 use crate::model::{
     ContactConvention, InvalidValue, Law, PAPER_BODIES, Power, Preparation, Stack, shell_quoted,
     shown,
@@ -422,6 +422,30 @@ impl Code {
         let word = program.and_then(|program| program.command.first());
         let word = word.map_or("", String::as_str);
         format!("put its program `{word}` {}", self.places())
+    }
+
+    /// The file that would be its program if it were executable, for a code that is not found.
+    pub fn not_executable(&self) -> Option<PathBuf> {
+        let program = self.definition().program.as_ref()?;
+        let directories = program.search.iter();
+        let directories = directories.map(|place| place.get_ref().as_str());
+        find_not_executable(directories, program.command.first()?)
+    }
+
+    /// Says why its program is not found, and what helps.
+    pub fn absence(&self) -> String {
+        match self.not_executable() {
+            Some(file) => format!(
+                "its program {} is there, but not executable; accepted is one that is: chmod +x {}",
+                shown(&file),
+                shell_quoted(&shown(&file))
+            ),
+            None => format!(
+                "its program is not {}; install it with: {}",
+                self.places(),
+                self.installation_hint()
+            ),
+        }
     }
 
     /// The places in which its program is looked for, in words.

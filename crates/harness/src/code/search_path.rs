@@ -13,8 +13,13 @@ pub(super) const SEARCH_PATH: &str = "$PATH";
 
 /// Finds the program of this name in the search path.
 pub(super) fn in_search_path(program: &str) -> Option<PathBuf> {
+    first_in_search_path(program, runs)
+}
+
+fn first_in_search_path(program: &str, accepts: fn(&Path) -> bool) -> Option<PathBuf> {
     let path = std::env::var_os("PATH")?;
-    std::env::split_paths(&path).find_map(|directory| in_directory(&directory, program))
+    let mut directories = std::env::split_paths(&path);
+    directories.find_map(|directory| in_directory(&directory, program, accepts))
 }
 
 /// Finds the program of this name in one of `directories`, which a manifest names; in the search path if it names
@@ -26,20 +31,40 @@ pub(super) fn find_program<'a>(
     directories: impl IntoIterator<Item = &'a str>,
     program: &str,
 ) -> Option<PathBuf> {
+    find_first(directories, program, runs)
+}
+
+/// Finds a file of this name in the same places that would be the program if it were executable.
+pub(super) fn find_not_executable<'a>(
+    directories: impl IntoIterator<Item = &'a str>,
+    program: &str,
+) -> Option<PathBuf> {
+    find_first(directories, program, |file| file.is_file() && !runs(file))
+}
+
+fn find_first<'a>(
+    directories: impl IntoIterator<Item = &'a str>,
+    program: &str,
+    accepts: fn(&Path) -> bool,
+) -> Option<PathBuf> {
     let mut directories = directories.into_iter().peekable();
     if directories.peek().is_none() {
-        return in_search_path(program);
+        return first_in_search_path(program, accepts);
     }
     directories.find_map(|directory| match directory {
-        SEARCH_PATH => in_search_path(program),
-        _ => in_directory(&filled_in(directory)?, program),
+        SEARCH_PATH => first_in_search_path(program, accepts),
+        _ => in_directory(&filled_in(directory)?, program, accepts),
     })
 }
 
-fn in_directory(directory: &Path, program: &str) -> Option<PathBuf> {
+fn in_directory(directory: &Path, program: &str, accepts: fn(&Path) -> bool) -> Option<PathBuf> {
     let candidate = std::path::absolute(directory.join(program)).ok()?;
-    let runs = candidate.is_file() && access(&candidate, AccessFlags::X_OK).is_ok();
-    runs.then_some(candidate)
+    accepts(&candidate).then_some(candidate)
+}
+
+/// Whether `file` is one that this user may execute.
+fn runs(file: &Path) -> bool {
+    file.is_file() && access(file, AccessFlags::X_OK).is_ok()
 }
 
 /// Replaces parts of `directory` such as `$VIRTUAL_ENV` by the values of these environment variables; returns `None`

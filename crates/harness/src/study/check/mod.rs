@@ -31,7 +31,9 @@ use crate::code::{
     Code, Failure, InstalledCode, Run, RunContext, TaskKind, folder_argument, keep_evidence,
 };
 use crate::files::{Scratch, temporary};
-use crate::model::{Arrangement, Case, ContactConvention, Power, Problem, Stack};
+use crate::model::{
+    Arrangement, Case, ContactConvention, Power, Problem, Stack, shell_quoted, shown,
+};
 use crate::theory::quasistatic_limit;
 use information::{information, same_bits};
 use micro::Micro;
@@ -216,9 +218,18 @@ impl Check<'_> {
             Item::failed(Grade::Mandatory, NAME, expected, found, causes)
         };
         let Some(installed) = self.code.find() else {
-            let hint = self.code.installation_hint().to_owned();
-            let found =
-                "the first word of `command` names no program in the search path".to_owned();
+            if let Some(file) = self.code.not_executable() {
+                let found = format!("{} is there, but it is not executable", shown(&file));
+                let permit = shell_quoted(&shown(&file));
+                let causes = vec![format!(
+                    "its permission to be executed is not set: chmod +x {permit}"
+                )];
+                self.add(fail(found, causes));
+                return None;
+            }
+            let hint = self.code.installation_hint();
+            let places = self.code.places();
+            let found = format!("the first word of `command` names no program {places}");
             let causes = vec![
                 format!("it is not installed; `install` of code.toml says: {hint}"),
                 "its name is misspelt, or it is a file of the folder: files are given as {deck}, to an interpreter".to_owned(),

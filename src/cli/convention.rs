@@ -5,7 +5,7 @@ use super::progress::Reporter;
 use super::{CliError, INTERRUPT, complain, tell};
 use crate::code::{Code, SettledCode};
 use crate::runs::{Progress, SelectedCode, Settings};
-use crate::study::convention;
+use crate::study::convention::{self, NO_CONTACT};
 
 /// Settles the conventions of `codes`, in their order. Says on standard error what was measured where manifests leave
 /// something out.
@@ -33,6 +33,7 @@ pub(super) fn settle_with(
     let settled = convention::settle(codes, settings, progress).into_iter();
     let told = settled.map(|(code, probed)| {
         match probed {
+            Some(Ok(probe)) if probe.no_contact => tell!("{}: {NO_CONTACT}", code.name()),
             Some(Ok(_)) => tell_settled(&code),
             Some(Err(error)) if !INTERRUPT.requested() => {
                 let name = code.name();

@@ -12,7 +12,7 @@ use crate::runs::SelectedCode;
 use crate::study::Verdict;
 use crate::study::atlas::NamedPassport;
 use crate::study::convention::{
-    Finding, Passport, Probed, in_single_precision, passport, probe_all, step_effects,
+    Finding, NO_CONTACT, Passport, Probed, in_single_precision, passport, probe_all, step_effects,
 };
 use clap::Args;
 use std::path::{Path, PathBuf};
@@ -57,7 +57,7 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
         .flatten()
         .flat_map(|probe| probe.findings.clone())
         .collect();
-    let people = || probe_by_code(&findings).terminal();
+    let people = || for_people(&probed);
     let tables = [probe(&findings)];
     let printed = arguments.format.print(&tables, command, people);
     let known = codes.iter().zip(&probed);
@@ -83,6 +83,19 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
         .max(printed)
         .max(written)
         .max(filed))
+}
+
+/// Returns the findings as people read them. A code in which no contact acts has no column, since all of it would say
+/// `unknown`.
+fn for_people(probed: &[Probed]) -> String {
+    let answered = probed.iter().flatten();
+    let (silent, others): (Vec<_>, Vec<_>) = answered.partition(|probe| probe.no_contact);
+    let findings = others.iter().flat_map(|probe| probe.findings.clone());
+    let findings: Vec<Finding> = findings.collect();
+    match findings.is_empty() && !silent.is_empty() {
+        true => String::new(),
+        false => probe_by_code(&findings).terminal(),
+    }
 }
 
 /// Files `passports` in `directory` under their permanent names.
@@ -132,6 +145,10 @@ fn conclude(codes: &[SelectedCode], probed: &[Probed], findings: &[Finding]) -> 
         }
     }
     for (selected, result) in codes.iter().zip(probed) {
+        if result.as_ref().is_ok_and(|probe| probe.no_contact) {
+            tell!("{}: {NO_CONTACT}", selected.name);
+            continue;
+        }
         if let Some(told) = result.as_ref().ok().and_then(in_single_precision) {
             tell!("{}: {told}", selected.name);
         }

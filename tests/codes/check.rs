@@ -510,6 +510,37 @@ fn a_program_that_is_not_executable_is_told() {
     assert!(error.contains(told), "{error}");
 }
 
+#[test]
+fn a_probe_in_which_no_contact_acts_says_so_once() {
+    let never = ["if overlap <= 0.0:", "if True:"].map(str::to_owned);
+    let bench = bench_with(&[never]);
+    let told = "no contact force was seen in any of its micro-tests";
+    let output = bench.tristack("probe --codes ./mydem").output();
+    let output = output.expect("it runs");
+    assert_eq!(output.status.code(), Some(4));
+    assert_eq!(String::from_utf8_lossy(&output.stdout), "");
+    let error = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(error.matches(told).count(), 1, "{error}");
+    let output = bench
+        .tristack("probe --codes ./mydem --format json")
+        .output();
+    let findings = json_rows(&String::from_utf8_lossy(&output.expect("it runs").stdout));
+    let properties: Vec<&str> = findings.iter().map(|own| text(own, "property")).collect();
+    assert!(
+        properties.contains(&"floor_normal_stiffness"),
+        "{properties:?}"
+    );
+    let line = "crosscheck --codes ./mydem --mu 0.3 --stiffness 100";
+    let output = bench.tristack(line).output().expect("it runs");
+    let error = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(error.matches(told).count(), 1, "{error}");
+    let (_, items) = check(&bench, "");
+    let mut items = items.iter();
+    let declared = items.find(|item| text(item, "item") == "declared convention");
+    let declared = declared.expect("the item");
+    assert_eq!(text(declared, "outcome"), "not-tested");
+}
+
 /// Behaviour of a script before it does its task, options, exit status, and words by which it is told.
 const MISBEHAVIOUR: [(&str, &str, i32, &str); 7] = [
     (

@@ -9,8 +9,8 @@ use crate::code::{Code, ConventionKey};
 use crate::model::ContactConvention;
 use crate::runs::{Answer, ProbeRecord};
 use crate::study::convention::{
-    DAMPING_VELOCITY_LAG, FORCE_LAG, Finding, Findings, OVERLAP_LEAD, TOLERANCE, forces_are_late,
-    probe, read_probe, step_effects,
+    DAMPING_VELOCITY_LAG, FORCE_LAG, Finding, Findings, NO_CONTACT, OVERLAP_LEAD, TOLERANCE,
+    forces_are_late, probe, read_probe, step_effects,
 };
 
 /// Largest relative deviation of numbers that have few digits.
@@ -157,6 +157,9 @@ impl Micro {
         let own = self.findings.findings.iter();
         let wrong = own.filter(|own| is_convention(own) && self.deviates(own));
         let wrong: Vec<&Finding> = wrong.collect();
+        if self.findings.no_contact {
+            return Item::not_tested(Grade::Consistency, DECLARATION, NO_CONTACT);
+        }
         if wrong.is_empty() {
             return Item::passed(Grade::Consistency, DECLARATION, "as measured");
         }

@@ -3,6 +3,7 @@
 use super::convergence::converged;
 use super::finding::{FORCE_LAG, Finding, TOLERANCE};
 use super::micro_tests::MicroTests;
+use super::no_contact::{NO_CONTACT, acts_nowhere};
 use super::rounding::Rounding;
 use super::settled::settled;
 use crate::code::{Code, ConventionKey, Declaration, Identity, Provenance, Settled, TaskKind};
@@ -61,6 +62,8 @@ pub struct Findings {
     pub few_digits: Option<u32>,
     /// The quantities of its motions that are in single precision.
     pub single: Vec<&'static str>,
+    /// Whether no contact acts in any of the motions, so that nothing can be measured.
+    pub no_contact: bool,
 }
 
 /// The findings on one selected code, or why there are none.
@@ -134,6 +137,7 @@ pub fn read_probe(code: &Code, record: ProbeRecord) -> Probed {
     // The longest numbers count: some motions are so simple that their numbers are short.
     let rounding = Rounding::of(&motions.collect::<Vec<_>>());
     let few_digits = Some(rounding.digits).filter(|digits| *digits < ENOUGH_DIGITS);
+    let no_contact = acts_nowhere(&record.answers);
     let properties = properties.into_iter();
     let findings = properties.map(|property| {
         let finding = property.judge(code, version);
@@ -149,6 +153,7 @@ pub fn read_probe(code: &Code, record: ProbeRecord) -> Probed {
         provenance: record.provenance,
         few_digits,
         single: rounding.single_quantities(),
+        no_contact,
     })
 }
 
@@ -233,8 +238,11 @@ pub fn contradictions(probed: &Probed) -> Vec<String> {
     }
 }
 
-/// The findings that do not agree with the declaration, one line each.
+/// The findings that do not agree with the declaration, one line each; one line where no contact acts.
 pub fn contradicting(probe: &Findings) -> Vec<String> {
+    if probe.no_contact {
+        return vec![format!("its probe decides nothing: {NO_CONTACT}")];
+    }
     let declared = probe.findings.iter().filter(|one| one.declared.is_some());
     let mut contradicting: Vec<&Finding> = declared
         .filter(|one| one.verdict != Verdict::Agrees)
@@ -321,6 +329,7 @@ mod tests {
             findings: verdicts.iter().map(finding).collect(),
             few_digits: None,
             single: Vec::new(),
+            no_contact: false,
         })
     }
 

@@ -16,6 +16,7 @@ mod linear_form;
 mod measured;
 mod measured_arms;
 mod micro_tests;
+mod no_contact;
 mod normal;
 mod other_model;
 mod passport;
@@ -44,6 +45,7 @@ pub use measured::{
 pub(crate) use measured::{arms_are_measured, forces_are_late, is_contradicted, other_program};
 pub use measured_arms::{MeasuredArms, UnusablePassport};
 pub(crate) use micro_tests::ask;
+pub use no_contact::NO_CONTACT;
 pub use passport::{ArmEffects, MeasuredKey, PASSPORT, Passport, passport, reservations};
 pub(crate) use passport_file::schema_of;
 pub use passport_file::{

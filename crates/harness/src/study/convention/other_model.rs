@@ -49,7 +49,7 @@ pub fn rolling_couple(motions: &[Vec<ContactRow>]) -> Option<Measured> {
         ([against], couple(row))
     });
     let [share] = fit(&terms.collect::<Vec<_>>());
-    Some(share)
+    (share.value > share.uncertainty.max(TOLERANCE)).then_some(share)
 }
 
 /// Whether the tangential forces of `motions` only ever oppose the sliding: in those in which the surfaces come to rest,

@@ -93,7 +93,7 @@ mod tests {
         ] {
             assert_eq!(refused_key(stack, convention), key);
         }
-        let long = ContactConvention::with_arms(Arms::reciprocal(0.0, 1.5));
+        let long = ContactConvention::with_arms(Arms::reciprocal(0.0, 150.0));
         assert_eq!(refused_key(stack, long), "convention.floor.torque_arm");
     }
 

@@ -189,7 +189,7 @@ pub fn passport_markdown(passport: &Passport, command: &str) -> String {
     );
     let points = findings.measured.contact_points();
     if !points.is_empty() {
-        page += &format!("\nWith these arms {}.\n", points.join("; "));
+        page += &format!("\nIn words: {}.\n", points.join("; "));
     }
     for effect in passport.time_step_effects() {
         page += &format!(

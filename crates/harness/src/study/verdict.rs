@@ -368,11 +368,12 @@ impl Grounds {
             })
         };
         let rank = |cause: &Cause| match cause {
-            own if own.contradicts() => 0,
+            Cause::AnotherModel | Cause::Contradicted => 0,
             Cause::NotKnown | Cause::NotProbed => 1,
             Cause::Undecidable => 2,
-            Cause::SinglePrecision | Cause::FewDigits | Cause::TooCoarse => 3,
-            _ => 4,
+            Cause::SinglePrecision | Cause::FewDigits => 3,
+            Cause::TooCoarse => 4,
+            Cause::Doubtful => 5,
         };
         self.0.iter().filter_map(of).min_by_key(rank)
     }
@@ -501,6 +502,9 @@ mod tests {
         );
         let mut list = vec![doubt, coarse];
         assert_eq!(words(&list), "inconclusive (too coarse)");
+        list.push(not_judged(Cause::FewDigits));
+        assert_eq!(words(&list), "inconclusive (few digits)");
+        list.pop();
         list.push(Ground::SinglePrecision("32 bits".to_owned()));
         assert_eq!(words(&list), "inconclusive (single precision)");
         list.push(not_judged(Cause::NotKnown));

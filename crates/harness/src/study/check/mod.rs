@@ -39,7 +39,7 @@ use information::{information, same_bits};
 use micro::Micro;
 use std::io;
 use std::path::Path;
-use unreadable::explained;
+use unreadable::{UNSTABLE, explained, not_by_step};
 
 /// Friction and stiffness of the stack that is compressed: soft, so that every convention shows, and above the
 /// critical friction.
@@ -48,6 +48,8 @@ const STIFFNESS: f64 = 100.0;
 /// Wall speed in the unit of planned measurements ([`planned_protocol`]): twice the fastest of them.
 const SPEED: f64 = 4e-3;
 const TIME_STEP: f64 = 0.1;
+/// By how much the time step is shortened to see whether it is the cause of an explosion.
+const FINER: f64 = 8.0;
 /// The item on the run of a stack.
 const STACK: &str = "task stack";
 /// Why it is not tested, if it is not.
@@ -157,7 +159,7 @@ impl Check<'_> {
         let run = match self.code.check_task(TaskKind::Stack) {
             Ok(()) => {
                 let Some(run) = self.stack(installed.as_ref(), &case) else {
-                    self.explain_explosion(installed.as_ref());
+                    self.explain_explosion(installed.as_ref(), &case);
                     return None;
                 };
                 Some(run)
@@ -360,29 +362,39 @@ impl Check<'_> {
         })
     }
 
-    /// Replaces the causes of a stack that explodes by those that the micro-tests show, if they show any.
-    fn explain_explosion(&mut self, installed: &dyn InstalledCode) {
-        let unstable = |item: &Item| {
+    /// Explains a stack that explodes: by whether a much shorter time step prevents it, and by what the micro-tests show,
+    /// if they show anything.
+    fn explain_explosion(&mut self, installed: &dyn InstalledCode, case: &Case) {
+        let is_unstable = |item: &Item| {
             let mut causes = item.causes.iter();
-            causes.any(|cause| cause.starts_with("the integration is unstable"))
+            causes.any(|cause| cause.starts_with(UNSTABLE))
         };
-        if !self.report.items.last().is_some_and(unstable)
-            || self.code.check_task(TaskKind::Motion).is_err()
-        {
+        if !self.report.items.last().is_some_and(is_unstable) {
             return;
         }
+        let mut fine = *case;
+        fine.protocol.time_step /= FINER;
+        let still = match self.try_run(installed, &fine, "stack-fine") {
+            Err(Some(failure)) => not_by_step(&failure, FINER),
+            _ => None,
+        };
+        let causes = self.causes_by_micro_tests(installed).or(still);
+        if let Some((item, causes)) = self.report.items.last_mut().zip(causes) {
+            item.causes = causes;
+        }
+    }
+
+    /// Returns the causes that the micro-tests show for a stack without a usable result.
+    fn causes_by_micro_tests(&self, installed: &dyn InstalledCode) -> Option<Vec<String>> {
+        self.code.check_task(TaskKind::Motion).ok()?;
         let directory = self.directory.join("motion");
         let context = RunContext {
             directory: &directory,
             ..*self.context
         };
-        let micro = ask(installed, &context)
-            .ok()
-            .and_then(|record| Micro::of(&self.code, record));
-        let causes = micro.map_or_else(Vec::new, |micro| diagnosis::of_motions(&micro));
-        if let Some(item) = self.report.items.last_mut().filter(|_| !causes.is_empty()) {
-            item.causes = causes;
-        }
+        let record = ask(installed, &context).ok()?;
+        let causes = diagnosis::of_motions(&Micro::of(&self.code, record)?);
+        (!causes.is_empty()).then_some(causes)
     }
 
     fn run(&self, installed: &dyn InstalledCode, case: &Case, name: &str) -> Option<Run> {

@@ -257,6 +257,27 @@ fn of_length(found: usize, expected: usize, case: &Case) -> Vec<String> {
 /// Largest magnitude of a number in units of r, k_n and m that a run shows unless it explodes.
 const LARGEST_USUAL: f64 = 100.0;
 
+/// Beginning of the explanation of a run that explodes.
+pub(super) const UNSTABLE: &str = "the integration is unstable";
+
+/// Explains numbers that are not finite in a run whose time step was `divided` as well; `None` if it failed otherwise.
+pub(super) fn not_by_step(failure: &Failure, divided: f64) -> Option<Vec<String>> {
+    let FailureKind::Series(SeriesError::NotFinite(found)) = &failure.kind else {
+        return None;
+    };
+    let at = match found.step {
+        0 => "before the wall moves".to_owned(),
+        step => format!("at step {step} or before"),
+    };
+    Some(vec![
+        format!(
+            "with the time step divided by {divided} there are no numbers either, {at}: the step is not the cause. A number \
+             is divided by 0, as at an overlap of exactly 0, with which bodies that just touch begin, or is the root of a negative one"
+        ),
+        "energy is gained at any step: damping with the wrong sign, or a contact that pushes the wrong way".to_owned(),
+    ])
+}
+
 /// Explains numbers that are not finite. An instability grows before it overflows, and takes everything along that touches.
 fn of_not_finite(found: &NotFinite, case: Option<&Case>) -> Vec<String> {
     const DIVISION: &str = "a division by 0, such as the normal of two centres at the same place";
@@ -278,7 +299,7 @@ fn of_not_finite(found: &NotFinite, case: Option<&Case>) -> Vec<String> {
         let longest = case.stack.longest_time_step(&case.convention);
         let time_step = case.protocol.time_step;
         causes.push(format!(
-            "the integration is unstable, at step {step} or before: time_step is {time_step}, and {longest:.2} would be \
+            "{UNSTABLE}, at step {step} or before: time_step is {time_step}, and {longest:.2} would be \
                  stable with k_n = 1 and m = 1; a stiffness too high, a mass or an inertia too small, damping with the wrong \
                  sign, or a contact that pushes the wrong way"
         ));

@@ -64,7 +64,8 @@ fn reference(row: &Judgement) -> String {
         optional(row.judged_reference(), digits::<12>),
         optional(row.model_form(), relative),
     );
-    if !limit.rises_after_onset() {
+    // Under arms that are not known, no peak is known either.
+    if row.reference_force().is_none() || !limit.rises_after_onset() {
         return text;
     }
     text + &format!(

@@ -283,8 +283,9 @@ fn of_not_finite(found: &NotFinite, case: Option<&Case>) -> Vec<String> {
     const DIVISION: &str = "a division by 0, such as the normal of two centres at the same place";
     let columns = found.columns.join(", ");
     if found.largest <= LARGEST_USUAL && found.finite > 0 {
-        let others = match found.row {
-            1 => "nothing has moved yet",
+        let others = match (found.row, case) {
+            (1, None) => "nothing has moved yet",
+            (1, Some(_)) => "the wall has not moved yet",
             _ => "the others, and those of the rows before, are no larger than usual",
         };
         let mut causes = vec![format!(
@@ -308,8 +309,8 @@ fn of_not_finite(found: &NotFinite, case: Option<&Case>) -> Vec<String> {
     causes
 }
 
-/// Says that a body without a place feels forces all the same, so that only what is written of it can be wrong; `columns` are
-/// those without numbers.
+/// Names the contacts among the `columns` without numbers, or says that a body without a place feels forces all the same, so
+/// that only what is written of it can be wrong. No force depends on an angle.
 fn written_alone(columns: &[&str]) -> Option<String> {
     let is_force = |name: &&&str| {
         ["floor_", "wall_", "f", "torque"]
@@ -318,7 +319,9 @@ fn written_alone(columns: &[&str]) -> Option<String> {
     };
     let mut forces = columns.iter().filter(is_force);
     let contacts: Vec<String> = forces.clone().filter_map(|name| contact_of(name)).collect();
+    let has_place = |name: &&str| name.starts_with(['x', 'y']);
     match forces.next() {
+        None if !columns.iter().any(has_place) => None,
         None => Some(
             "all forces of the row are numbers, and would not be in such places: the motion is right, and what is written of it \
              is not"
@@ -374,7 +377,9 @@ mod tests {
             force.contains("the force of cylinder 2 on the floor"),
             "{force}"
         );
-        assert!(told(&["theta2"], 1, 13, 2.7).contains("nothing has moved yet"));
+        let angle = told(&["theta2"], 1, 13, 2.7);
+        assert!(angle.contains("the wall has not moved yet"), "{angle}");
+        assert!(!angle.contains("the motion is right"), "{angle}");
         for (finite, largest) in [(13, 1e9), (0, 2.7)] {
             let exploded = told(&["x2"], 37, finite, largest);
             assert!(

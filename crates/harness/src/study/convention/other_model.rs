@@ -5,11 +5,12 @@ use super::finding::TOLERANCE;
 use super::linear_form::sticking;
 use super::regression::{Measured, fit};
 
-/// Share of the work of a couple that must be taken from the rolling before it counts as a resistance to it. Where a
-/// couple stores some of the work it gives that back.
+/// Share of the work of a couple, net of what it gives back, from which on it resists the rolling: 1 of friction, less of a
+/// couple that stores some of the work, and about 0 of one whose sign has nothing to do with the rolling.
 const RESISTS: f64 = 0.5;
 
-/// Share of a couple that tangential forces may explain, if it is not that of arms that differ between the bodies.
+/// Share of the square of a couple that tangential forces explain if it comes from arms that differ between the bodies: all but
+/// rounding of it, and much less of a couple that follows the rolling.
 const EXPLAINED_BY_ARMS: f64 = 0.9;
 
 /// Share of the work done on a contact that a spring gives back at least: about half of it in the time of the

@@ -5,7 +5,7 @@ use super::micro::{self, Micro};
 use super::report::{Grade, Item, Outcome};
 use super::stack::{self, Scheme, at_first_sight};
 use super::table::usual;
-use super::{equations, search, written};
+use super::{equations, events, search, written};
 use crate::model::{Case, ContactConvention};
 use crate::series::Series;
 
@@ -202,7 +202,9 @@ struct Known {
     /// compresses none.
     stacks: Vec<Evidence>,
     motions: Vec<Evidence>,
-    /// Whether the code has the law and the integrator of the twin.
+    /// Whether the code has the integrator of the twin, by micro-tests that agree to the last digits.
+    has_integrator: bool,
+    /// Whether it has its law, too.
     is_exact: bool,
 }
 
@@ -220,7 +222,8 @@ impl Known {
             .filter(|own| own.before < SAME_MOTION)
             .count();
         // Some motions may be the same although the integrator is not.
-        let is_exact = exact >= MANY_EXACT && !micro.is_some_and(Micro::depends_on_step);
+        let has_integrator = exact >= MANY_EXACT;
+        let is_exact = has_integrator && !micro.is_some_and(Micro::depends_on_step);
         let is_wrong = micro.is_some_and(|micro| micro.items().iter().any(is_to_be_explained));
         let part =
             |(series, case), is_whole| Evidence::of_stack(series, case, convention, is_whole);
@@ -236,6 +239,7 @@ impl Known {
         Self {
             stacks,
             motions,
+            has_integrator,
             is_exact,
         }
     }
@@ -265,6 +269,7 @@ impl Known {
         let Self {
             stacks,
             motions,
+            has_integrator,
             is_exact,
         } = self;
         let law = motions.iter().any(Evidence::is_off);
@@ -286,6 +291,12 @@ impl Known {
             .chain(stacks.iter().cloned())
             .collect();
         causes = search::explanations(&all);
+        if causes.is_empty()
+            && has_integrator
+            && let Some(event) = events::explanation(&stacks, &motions)
+        {
+            return vec![event];
+        }
         if !law {
             let of_contacts = causes.iter_mut().filter(|own| search::is_of_contacts(own));
             of_contacts

@@ -151,15 +151,21 @@ impl Evidence {
         own
     }
 
-    /// Replaces the rows by those of a twin with a `fault`.
+    /// Replaces the rows by those of a twin with a `fault` that is interrupted ([`Twin::run_interrupted`]).
     #[cfg(test)]
-    pub fn written_by(mut self, fault: impl Fn(&mut Twin)) -> Self {
+    pub fn written_by(
+        mut self,
+        fault: impl Fn(&mut Twin),
+        interrupt: impl FnMut(&mut Twin, u64),
+    ) -> Self {
         let mut wrong = self.twin.clone();
         fault(&mut wrong);
         let (columns, found) = (&self.columns, &mut self.found);
-        wrong.run(|step, row| {
-            found[step as usize] = (step, columns.iter().map(|column| column.of(row)).collect());
-            step as usize + 1 < found.len()
+        wrong.run_interrupted(interrupt, |step, row| {
+            if let Ok(place) = found.binary_search_by_key(&step, |(own, _)| *own) {
+                found[place].1 = columns.iter().map(|column| column.of(row)).collect();
+            }
+            found.last().is_some_and(|(last, _)| step < *last)
         });
         self.before = self.distance(|_| (), f64::INFINITY);
         self
@@ -200,17 +206,25 @@ impl Evidence {
     pub fn distance(&self, fault: impl Fn(&mut Twin), limit: f64) -> f64 {
         let mut twin = self.twin.clone();
         fault(&mut twin);
+        self.distance_of(limit, |watch| twin.run(watch))
+    }
+
+    /// Returns the same from the twin without a fault which is interrupted ([`Twin::run_interrupted`]).
+    pub fn distance_interrupted(&self, interrupt: impl Fn(&mut Twin, u64), limit: f64) -> f64 {
+        let mut twin = self.twin.clone();
+        self.distance_of(limit, |watch| twin.run_interrupted(interrupt, watch))
+    }
+
+    fn distance_of(&self, limit: f64, run: impl FnOnce(&mut dyn FnMut(u64, &Row) -> bool)) -> f64 {
         let (mut rows, mut worst) = (self.found.iter().peekable(), 0.0);
-        twin.run(|step, row| {
+        run(&mut |step, row| {
             if let Some((_, values)) = rows.next_if(|(own, _)| *own == step) {
-                for (column, value) in self.columns.iter().zip(values) {
-                    let apart = (column.of(row) - value).abs() / column.scale;
-                    worst = if apart > worst || apart.is_nan() {
-                        apart
-                    } else {
-                        worst
-                    };
-                }
+                let apart = self.apart(row, values);
+                worst = if apart > worst || apart.is_nan() {
+                    apart
+                } else {
+                    worst
+                };
             }
             worst <= limit && rows.peek().is_some()
         });
@@ -219,6 +233,53 @@ impl Evidence {
             true => f64::INFINITY,
             false => worst,
         }
+    }
+
+    /// Returns the largest distance between a row of a twin and the values in a row of the code; NaN if one is.
+    fn apart(&self, row: &Row, values: &[f64]) -> f64 {
+        let each = self.columns.iter().zip(values);
+        let each = each.map(|(column, value)| (column.of(row) - value).abs() / column.scale);
+        each.fold(0.0, |worst, apart| match apart > worst || apart.is_nan() {
+            true => apart,
+            false => worst,
+        })
+    }
+
+    /// Returns the distance of a row of a twin from that of the code at the same step, if there is one; infinite if a
+    /// number is NaN.
+    pub fn distance_at(&self, step: u64, row: &Row) -> Option<f64> {
+        let place = self.found.partition_point(|(own, _)| *own < step);
+        let (_, values) = self.found.get(place).filter(|(own, _)| *own == step)?;
+        let apart = self.apart(row, values);
+        Some(if apart.is_nan() { f64::INFINITY } else { apart })
+    }
+
+    /// Returns the distance of a twin that goes on from a step, in the next row.
+    pub fn next_distance(&self, (step, mut twin): (u64, Twin)) -> f64 {
+        let mut found = f64::INFINITY;
+        let mut look = |step: u64, row: &Row| {
+            self.distance_at(step, row).map_or(true, |distance| {
+                found = distance;
+                false
+            })
+        };
+        twin.go_on(step, |_, _| (), &mut look);
+        found
+    }
+
+    /// Returns how many rows are those of a twin that goes on from a step, until one is further off than `same`.
+    pub fn rows_right(&self, (step, mut twin): (u64, Twin), same: f64) -> usize {
+        let mut right = 0;
+        let mut look = |step: u64, row: &Row| match self.distance_at(step, row) {
+            Some(distance) if distance >= same => false,
+            Some(_) => {
+                right += 1;
+                right < self.found.len()
+            }
+            None => true,
+        };
+        twin.go_on(step, |_, _| (), &mut look);
+        right
     }
 
     /// Returns the first row that is off, in the column that is furthest off: name, step, found, expected.

@@ -5,6 +5,7 @@
 
 mod diagnosis;
 mod equations;
+mod events;
 mod evidence;
 mod factor;
 mod information;

@@ -9,7 +9,7 @@ use rayon::prelude::*;
 use std::ops::Range;
 
 /// Mistakes up to this many times the distance of the best one count as fitting equally well.
-const AS_WELL: f64 = 3.0;
+pub(super) const AS_WELL: f64 = 3.0;
 
 /// Numbers of the task that a code may take for one another.
 const PARAMETERS: [&str; 12] = [
@@ -324,7 +324,7 @@ mod tests {
             let motions = answers
                 .iter()
                 .map(|answer| Evidence::of_motion(answer, convention));
-            let wrong = motions.map(|own| own.written_by(|twin| fault.make(twin)));
+            let wrong = motions.map(|own| own.written_by(|twin| fault.make(twin), |_, _| ()));
             let causes = explanations(&wrong.collect::<Vec<_>>());
             assert!(causes[0].starts_with(says), "{says}: {causes:?}");
         }

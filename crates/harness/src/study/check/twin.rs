@@ -41,9 +41,9 @@ pub(super) const WIDTH: usize = 3 * OF_BODY.len() + CONTACTS.len() * PER_CONTACT
 pub(super) type Row = [f64; WIDTH];
 
 #[derive(Debug, Clone, Copy, Default)]
-struct Body {
-    at: [f64; 3],
-    speed: [f64; 3],
+pub(super) struct Body {
+    pub at: [f64; 3],
+    pub speed: [f64; 3],
     load: [f64; 3],
     before: [f64; 3],
 }
@@ -64,6 +64,17 @@ enum Plan {
     Motion(ContactTest),
 }
 
+/// Which contacts have forces.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Lists {
+    /// All that are closed.
+    None,
+    /// Those of them that were closed when they were listed.
+    Kept,
+    /// All that are closed, and these are listed.
+    Renewed,
+}
+
 /// A run that may have faults.
 #[derive(Debug, Clone)]
 pub(super) struct Twin {
@@ -76,11 +87,14 @@ pub(super) struct Twin {
     /// How the coefficients of pairs and of walls depend on the overlap, with 1 for each.
     units: [ContactLaw; 2],
     plan: Plan,
-    bodies: Vec<Body>,
+    pub bodies: Vec<Body>,
     pub states: [State; 9],
+    /// Which contacts have forces.
+    pub lists: Lists,
+    listed: [bool; 9],
     /// The tangential spring that all contacts of a kind share, if they do.
     shared: [[f64; 2]; 3],
-    wall: f64,
+    pub wall: f64,
     wall_speed: f64,
 }
 
@@ -134,6 +148,8 @@ impl Twin {
             plan,
             bodies: Vec::new(),
             states: [State::default(); 9],
+            lists: Lists::None,
+            listed: [false; 9],
             shared: [[0.0; 2]; 3],
             wall: f64::INFINITY,
             wall_speed: 0.0,
@@ -165,26 +181,40 @@ impl Twin {
     }
 
     /// Runs, and passes every step of the compression or of the motion to `watch`, until that returns `false`.
-    pub fn run(&mut self, mut watch: impl FnMut(u64, &Row) -> bool) {
+    pub fn run(&mut self, watch: impl FnMut(u64, &Row) -> bool) {
+        self.run_interrupted(|_, _| (), watch);
+    }
+
+    /// Runs in the same way; `interrupt` may change the twin before the forces of each step, which is counted from the
+    /// beginning of the run, its preparation included.
+    pub fn run_interrupted(
+        &mut self,
+        mut interrupt: impl FnMut(&mut Self, u64),
+        watch: impl FnMut(u64, &Row) -> bool,
+    ) {
+        if self.start(&mut interrupt) {
+            self.go_on(0, interrupt, watch);
+        }
+    }
+
+    /// The twin before the forces of step 0.
+    pub fn started(&self) -> Self {
+        let mut own = self.clone();
+        own.start(&mut |_, _| ());
+        own
+    }
+
+    /// Goes as far as step 0; returns `false` if that takes too long.
+    fn start(&mut self, interrupt: &mut impl FnMut(&mut Self, u64)) -> bool {
         match self.plan.clone() {
             Plan::Stack(schedule) => {
                 let [ramp, rest] = preparation_steps(&schedule);
                 let most = LONGEST_PREPARATION * (ramp + rest);
                 if self.run.ramp_steps + self.run.rest_steps > most {
-                    return;
+                    return false;
                 }
-                self.prepare();
+                self.prepare(interrupt);
                 self.start_wall();
-                for step in 0..=schedule.compression_steps {
-                    self.forces();
-                    if self.run.twice_at_rows != 0.0 && schedule.row_from(step) == Some(step) {
-                        self.forces();
-                    }
-                    if !watch(step, &self.row()) {
-                        return;
-                    }
-                    self.advance();
-                }
             }
             Plan::Motion(test) => {
                 let start = test.initial_motions;
@@ -192,21 +222,57 @@ impl Twin {
                     .map(|own| placed([own.x, own.y], [own.vx, own.vy, own.spin]))
                     .to_vec();
                 (self.wall, self.wall_speed) = (test.wall_height, self.run.wall_speed);
-                for step in 0..=test.steps {
-                    if let Some(drive) = &test.drive {
-                        let [[x, y], [vx, vy]] = drive.motion_at(step, test.time_step);
-                        self.bodies = vec![
-                            placed([start[0].x + x, start[0].y + y], [vx, vy, 0.0]),
-                            placed([start[1].x, start[1].y], [0.0; 3]),
-                        ];
-                    }
-                    self.forces();
-                    if !watch(step, &self.row()) {
-                        return;
-                    }
-                    self.advance();
-                }
             }
+        }
+        true
+    }
+
+    /// Goes on with the compression or the motion from a step whose forces are not computed yet.
+    pub fn go_on(
+        &mut self,
+        from: u64,
+        mut interrupt: impl FnMut(&mut Self, u64),
+        mut watch: impl FnMut(u64, &Row) -> bool,
+    ) {
+        let (plan, before) = (self.plan.clone(), self.preparation());
+        let last = match &plan {
+            Plan::Stack(schedule) => schedule.compression_steps,
+            Plan::Motion(test) => test.steps,
+        };
+        for step in from..=last {
+            if let Plan::Motion(ContactTest {
+                drive: Some(drive),
+                initial_motions: start,
+                time_step,
+                ..
+            }) = &plan
+            {
+                let [[x, y], [vx, vy]] = drive.motion_at(step, *time_step);
+                self.bodies = vec![
+                    placed([start[0].x + x, start[0].y + y], [vx, vy, 0.0]),
+                    placed([start[1].x, start[1].y], [0.0; 3]),
+                ];
+            }
+            interrupt(self, before + step);
+            self.forces();
+            if let Plan::Stack(schedule) = &plan
+                && self.run.twice_at_rows != 0.0
+                && schedule.row_from(step) == Some(step)
+            {
+                self.forces();
+            }
+            if !watch(step, &self.row()) {
+                return;
+            }
+            self.advance();
+        }
+    }
+
+    /// The number of steps before step 0.
+    pub fn preparation(&self) -> u64 {
+        match self.plan {
+            Plan::Stack(_) => (self.run.ramp_steps + self.run.rest_steps) as u64,
+            Plan::Motion(_) => 0,
         }
     }
 
@@ -239,14 +305,14 @@ impl Twin {
         }
     }
 
-    fn prepare(&mut self) {
+    fn prepare(&mut self, interrupt: &mut impl FnMut(&mut Self, u64)) {
         let root = 3f64.sqrt();
         let places = [[0.0, 1.0 + root], [1.0, 1.0], [-1.0, 1.0]];
         self.bodies = places.map(|place| placed(place, [0.0; 3])).to_vec();
         let asked = self.run.gravity;
-        let steps = (self.run.ramp_steps + self.run.rest_steps) as u64;
-        for step in 0..steps {
+        for step in 0..self.preparation() {
             self.run.gravity = asked * self.ramp(step);
+            interrupt(self, step);
             self.forces();
             self.advance();
         }
@@ -326,7 +392,7 @@ impl Twin {
         row
     }
 
-    fn forces(&mut self) {
+    pub(super) fn forces(&mut self) {
         let run = &self.run;
         let weights = [run.weight_1, run.weight_2, run.weight_3];
         for (body, weight) in self.bodies.iter_mut().zip(weights) {
@@ -363,6 +429,8 @@ impl Twin {
             units,
             bodies,
             states,
+            lists,
+            listed,
             ..
         } = self;
         let (law, state) = (&contacts[index], &mut states[index]);
@@ -388,7 +456,11 @@ impl Twin {
             }
         };
         let overlap = radius - distance;
-        let is_open = overlap <= 0.0 && (overlap < 0.0 || law.touches == 0.0);
+        if *lists == Lists::Renewed {
+            listed[index] = overlap > 0.0;
+        }
+        let is_unknown = *lists != Lists::None && !listed[index];
+        let is_open = is_unknown || overlap <= 0.0 && (overlap < 0.0 || law.touches == 0.0);
         if overlap.is_nan() || is_open && law.pulls * state.overlap == 0.0 {
             let is_forgotten = state.overlap == 0.0 && state.spring == [0.0; 2];
             if is_forgotten && law.stretches_open_spring == 0.0 {

@@ -1,13 +1,15 @@
 //! `tristack check`.
 
 use super::code_names::code_in_folder;
-use super::options::{Format, seconds, time_limit};
+use super::findings::exchange;
+use super::options::{Format, StoreOptions, seconds, time_limit};
 use super::progress::during;
 use super::{CliError, ExitStatus, INTERRUPT, tell};
-use crate::code::RunContext;
+use crate::code::{Code, RunContext};
 use crate::files::FileError;
 use crate::model::shown;
 use crate::output::{check, check_text};
+use crate::runs::Finder;
 use crate::study::check::{Grade, Report, check as check_code};
 use clap::Args;
 use std::path::Path;
@@ -17,8 +19,8 @@ use std::path::Path;
 /// Goes through what is mandatory (manifest, program, a small task), what mechanics and the task demand (weight on the
 /// floor, balance of forces, signs and units, symmetry, the parameters as micro-tests measure them), and what is worth
 /// knowing (reproducible bits, the measured convention). For each failure it says what was expected, what was found, and
-/// which mistakes fit that. There is no --store: its runs are made anew in every check, since a stored run would be that of an
-/// earlier state of what is being checked, and they are not kept.
+/// which mistakes fit that. Its runs are made anew in every check, and are not kept;
+/// the store has what `probe` and `crosscheck` have found about this very folder, and tells them what is wrong.
 #[derive(Debug, Args)]
 #[command(after_help = "Example: tristack check ./mydem")]
 pub(super) struct Arguments {
@@ -28,6 +30,8 @@ pub(super) struct Arguments {
     /// Longest time without a finished task, in seconds [default: 30 s plus 100 us per step]
     #[arg(long, value_name = "SECONDS", value_parser = seconds)]
     time_limit: Option<f64>,
+    #[command(flatten)]
+    store: StoreOptions,
     /// Format of the items
     #[arg(long, value_enum, default_value_t = Format::Table)]
     format: Format,
@@ -46,7 +50,9 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
             };
             let phase = format!("checking {}", shown(Path::new(folder)));
             let report = during(&phase, || check_code(&code, folder, &context));
-            report.map_err(FileError::writing(&place))?
+            let mut report = report.map_err(FileError::writing(&place))?;
+            exchange_findings(&code, &mut report, &arguments.store)?;
+            report
         }
         Err(error) => Report::of_manifest(&error.to_string(), folder),
     };
@@ -55,6 +61,37 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
         .format
         .print(&tables, command, || check_text(&report));
     Ok(conclude(&report).max(printed))
+}
+
+/// Adds to the report what other commands have found about `code`, and keeps for them what is wrong. A store is created
+/// only for something that is wrong, and one that is not named by an option, and cannot be opened, is done without.
+fn exchange_findings(
+    code: &Code,
+    report: &mut Report,
+    options: &StoreOptions,
+) -> Result<(), CliError> {
+    let is_named = options.store.is_some() || options.shared_store;
+    let is_there = options.directory().is_ok_and(|place| place.exists());
+    let wrong = report.wrong();
+    if INTERRUPT.requested() || !is_there && !is_named && wrong.is_empty() {
+        return Ok(());
+    }
+    let Some(installed) = code.find().filter(|own| own.broken().is_none()) else {
+        return Ok(());
+    };
+    let store = match options.opened() {
+        Ok(store) => store,
+        Err(error) if is_named => return Err(error),
+        Err(error) => {
+            report.add_of_others(format!("they will not know of this check: {error}"));
+            return Ok(());
+        }
+    };
+    let exchanged = exchange(Finder::Check, &*installed, &store, wrong);
+    exchanged
+        .into_iter()
+        .for_each(|told| report.add_of_others(told));
+    Ok(())
 }
 
 /// Summarizes the items on standard error, and returns the exit status.

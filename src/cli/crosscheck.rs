@@ -2,6 +2,7 @@
 
 use super::convention::settle;
 use super::explain::{RowName, explain, row_name};
+use super::findings::exchange_all;
 use super::interrupt::interrupted_after;
 use super::options::{
     CodeOptions, Format, RowOptions, RunOptions, StackOptions, check_compress, find_all,
@@ -16,7 +17,7 @@ use crate::model::Power;
 use crate::output::{
     budget, crosscheck, crosscheck_markdown, friction, json, laws_markdown, laws_svg,
 };
-use crate::runs::SelectedCode;
+use crate::runs::{Finder, SelectedCode};
 use crate::study::yield_force::{Judgement, Measurement};
 use crate::study::{Campaign, Verdict};
 use clap::Args;
@@ -121,6 +122,18 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
         command,
     );
     let found = conclude(&judgements, planned, &codes);
+    exchange_all(Finder::Crosscheck, &codes, &settings.store, |selected| {
+        let own = judgements.iter().filter(|row| row.code == selected.name);
+        own.filter(|row| row.verdict() == Verdict::Differs)
+            .map(|row| {
+                let mu = friction(row.mu());
+                format!(
+                    "the yield force at mu = {mu}, stiffness {} differs",
+                    row.stiffness()
+                )
+            })
+            .collect()
+    });
     Ok(found.max(written))
 }
 

@@ -11,6 +11,7 @@ mod convention;
 mod crosscheck;
 mod error;
 mod explain;
+mod findings;
 mod given;
 mod guard;
 mod impacts;

@@ -1,5 +1,6 @@
 //! `tristack probe`.
 
+use super::findings::exchange_all;
 use super::options::{CodeOptions, Format, RunOptions, selected_codes};
 use super::out::{Out, write};
 use super::progress::Reporter;
@@ -8,11 +9,12 @@ use crate::code::Settled;
 use crate::files::{FileError, Layout};
 use crate::model::shown;
 use crate::output::{json, passport_json, passport_markdown, probe, probe_by_code};
-use crate::runs::SelectedCode;
+use crate::runs::{Finder, SelectedCode};
 use crate::study::Verdict;
 use crate::study::atlas::NamedPassport;
 use crate::study::convention::{
-    Finding, NO_CONTACT, Passport, Probed, in_single_precision, passport, probe_all, step_effects,
+    Finding, NO_CONTACT, Passport, Probed, contradiction, in_single_precision, passport, probe_all,
+    step_effects,
 };
 use clap::Args;
 use std::path::{Path, PathBuf};
@@ -79,10 +81,14 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
         }
         files
     });
-    Ok(conclude(&codes, &probed, &findings)
-        .max(printed)
-        .max(written)
-        .max(filed))
+    let concluded = conclude(&codes, &probed, &findings);
+    exchange_all(Finder::Probe, &codes, &settings.store, |selected| {
+        let own = findings.iter().filter(|own| own.code == selected.name);
+        own.filter(|own| own.verdict == Verdict::Differs)
+            .map(contradiction)
+            .collect()
+    });
+    Ok(concluded.max(printed).max(written).max(filed))
 }
 
 /// Returns the findings as people read them. A code in which no contact acts has no column, since all of it would say

@@ -369,6 +369,49 @@ fn folders_of_real_codes_pass() {
     }
 }
 
+/// `check` and `probe` say what the other has found about the folder as it is, and nothing of what it was.
+#[test]
+fn what_one_command_has_found_the_others_say() {
+    let bench = bench_of(&[["frozen".to_owned(), "follows-limit".to_owned()]], &[]);
+    let told = |line: &str| {
+        let output = bench.tristack(line).output().expect("it runs");
+        let [rows, told] =
+            [output.stdout, output.stderr].map(|own| String::from_utf8(own).expect("text"));
+        format!("{rows}{told}")
+    };
+    let of = |command: &str| format!("`tristack {command}` has found about this very code: ");
+    let probed = told("probe --codes ./mydem");
+    assert!(!probed.contains("about this very code"), "{probed}");
+    let checked = told("check ./mydem");
+    let property = "floor_sliding_spring_memory";
+    assert!(
+        checked.contains(&format!(
+            "{}its probe contradicts its declaration: ",
+            of("probe")
+        )),
+        "{checked}"
+    );
+    assert!(
+        checked.contains("next: mend the first failure"),
+        "{checked}"
+    );
+    let probed = told("probe --codes ./mydem");
+    assert!(
+        probed.contains(&format!("mydem: {}declared convention: ", of("check"))),
+        "{probed}"
+    );
+    let listed = told("store list --kind finding --entries");
+    assert_eq!(listed.matches("mydem").count(), 2, "{listed}");
+    let manifest = bench.path("mydem/code.toml");
+    let text = fs::read_to_string(&manifest).expect("a manifest");
+    fs::write(&manifest, text.replace("follows-limit", "frozen")).expect("it can be written");
+    for line in ["probe --codes ./mydem", "check ./mydem"] {
+        let told = told(line);
+        assert!(!told.contains("about this very code"), "{told}");
+        assert!(told.contains("passed") || told.contains(property), "{told}");
+    }
+}
+
 #[test]
 fn a_code_without_micro_tests_is_checked_as_far_as_it_goes() {
     let bench = Bench::with_system_programs();

@@ -49,7 +49,7 @@ fn version(content: &Content) -> Option<&str> {
 }
 
 /// Meaning of the column `kind`.
-const KIND: &str = "`run`, `probe` (micro-tests), `observation` (of an event run), `impact`, `checkpoint` (of an unfinished native \
+const KIND: &str = "`run`, `probe` (micro-tests), `observation` (of an event run), `impact`, `finding` (what a command has found to be wrong with a code), `checkpoint` (of an unfinished native \
                     run), `failed-run` (the files that it left) or `quarantine` (a damaged result)";
 
 /// Returns the table of what a store holds, summed up by kind, code and version.

@@ -230,6 +230,25 @@ impl Code {
         let files_hash = self.files_hash(task.kind());
         self.definition().input_hash(&files_hash, task)
     }
+
+    /// Hash of all that its folder gives a program and says about it: the files of every task, command, environment,
+    /// parameter file, columns, and what the manifest declares.
+    pub fn folder_hash(&self) -> String {
+        let definition = self.definition();
+        let of_tasks = TaskKind::ALL.map(|kind| {
+            let command = definition.command(kind, &[".".to_owned()]);
+            let result = definition.result(kind);
+            let file = (result.file, result.columns);
+            format!("{}\n{command:?}\n{file:?}", self.files_hash(kind))
+        });
+        let environment = definition
+            .program
+            .as_ref()
+            .map(|program| &program.environment);
+        let (parameters, declared) = (&definition.parameters, self.declaration());
+        let given = format!("{of_tasks:?}\n{environment:?}\n{parameters:?}\n{declared:?}");
+        sha256_hex(given.as_bytes())
+    }
 }
 
 /// Returns the convention of `task`; if that has spheres, with the moment of inertia of the `cylinders` of its code,

@@ -1,6 +1,7 @@
 //! The contents of a store: each entry with the task that it answers and the program that made it.
 
 use super::entry::read_origin;
+use super::findings::found_about;
 use super::impacts::{ImpactRun, read_impact};
 use super::observations::observed_run;
 use super::probe_record::probe_address;
@@ -144,6 +145,15 @@ fn origin(entry: &StoredEntry) -> Result<Origin, FileError> {
                 code,
                 version: Some(version),
                 task: Some(StoredTask::Impact(run)),
+                provenance: None,
+            })
+        }
+        EntryKind::Finding => {
+            let Identity { code, version, .. } = found_about(&text()?, path)?;
+            Ok(Origin {
+                code,
+                version: Some(version),
+                task: None,
                 provenance: None,
             })
         }

@@ -3,6 +3,7 @@
 
 mod contents;
 mod entry;
+mod findings;
 mod impacts;
 mod observations;
 mod parallel;
@@ -15,6 +16,7 @@ mod summary;
 
 pub use contents::{CodesOfToday, Content, contents};
 pub use entry::read_entry;
+pub use findings::{Finder, Findings};
 pub use impacts::{ImpactReading, ImpactRun};
 pub use parallel::in_parallel;
 pub(crate) use probe_record::probe_address;

@@ -27,6 +27,8 @@ pub enum EntryKind {
     Observation,
     /// The reading of an impact.
     Impact,
+    /// What a command has found about a code.
+    Finding,
     /// The state of an unfinished native run.
     Checkpoint,
     /// The files of a run that failed.
@@ -37,11 +39,12 @@ pub enum EntryKind {
 
 impl EntryKind {
     /// All kinds.
-    pub const ALL: [Self; 7] = [
+    pub const ALL: [Self; 8] = [
         Self::Run,
         Self::Probe,
         Self::Observation,
         Self::Impact,
+        Self::Finding,
         Self::Checkpoint,
         Self::FailedRun,
         Self::Quarantine,
@@ -54,6 +57,7 @@ impl EntryKind {
             Self::Probe => Kind::Probe.name(),
             Self::Observation => Kind::Observation.name(),
             Self::Impact => Kind::Impact.name(),
+            Self::Finding => Kind::Finding.name(),
             Self::Checkpoint => "checkpoint",
             Self::FailedRun => "failed-run",
             Self::Quarantine => QUARANTINE,
@@ -117,6 +121,7 @@ pub(crate) fn entries(
         (EntryKind::Probe, "probes"),
         (EntryKind::Observation, "observations"),
         (EntryKind::Impact, "impacts"),
+        (EntryKind::Finding, "findings"),
         (EntryKind::Checkpoint, CHECKPOINTS),
     ] {
         entries.extend(single_files(&directories, kind, directory)?);

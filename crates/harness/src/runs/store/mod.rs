@@ -124,6 +124,8 @@ pub enum Kind {
     Observation,
     /// What was read off the motion of an impact.
     Impact,
+    /// What a command has found about a code.
+    Finding,
 }
 
 impl Kind {
@@ -134,6 +136,7 @@ impl Kind {
             Self::Probe => "probe",
             Self::Observation => "observation",
             Self::Impact => "impact",
+            Self::Finding => "finding",
         }
     }
 
@@ -145,6 +148,7 @@ impl Kind {
             Self::Probe => "probing 1 code",
             Self::Observation => "runs to the first event",
             Self::Impact => "impacts",
+            Self::Finding => "findings",
         };
         phase.to_owned()
     }

@@ -133,4 +133,26 @@ impl Report {
         let items = self.items.iter();
         items.filter(|item| item.outcome == Outcome::Failed)
     }
+
+    /// Adds what another command has found.
+    pub fn add_of_others(&mut self, found: String) {
+        let item = Item::remark(Grade::Informational, "other commands", found);
+        self.items.push(item);
+    }
+
+    /// Says what is wrong: the names of the items that failed, with the first cause that they share, or else what was
+    /// found.
+    pub fn wrong(&self) -> Vec<String> {
+        let mut told: Vec<(&str, Vec<&str>)> = Vec::new();
+        for item in self.failures() {
+            let cause = item.causes.first().unwrap_or(&item.found);
+            match told.iter_mut().find(|(other, _)| other == cause) {
+                Some((_, names)) => names.push(item.name),
+                None => told.push((cause, vec![item.name])),
+            }
+        }
+        let told = told.into_iter();
+        told.map(|(cause, names)| format!("{}: {cause}", names.join(", ")))
+            .collect()
+    }
 }

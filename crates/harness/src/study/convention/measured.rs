@@ -259,7 +259,8 @@ pub fn contradicting(probe: &Findings) -> Vec<String> {
     contradicting.into_iter().map(line).collect()
 }
 
-fn contradiction(finding: &Finding) -> String {
+/// Says how the probe contradicts what is declared or asked for in a `finding` that does not agree.
+pub fn contradiction(finding: &Finding) -> String {
     if let Some(told) = finding.other_model() {
         return format!("its probe shows another model: {told}");
     }

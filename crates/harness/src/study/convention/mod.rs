@@ -40,7 +40,8 @@ pub(crate) use finding::{DAMPING_VELOCITY_LAG, FORCE_LAG, OVERLAP_LEAD};
 pub use finding::{Finding, StepEffect, TOLERANCE, step_effects};
 pub use measured::in_single_precision;
 pub use measured::{
-    Findings, ProbeError, Probed, contradictions, probe_all, probe_records, read_probe,
+    Findings, ProbeError, Probed, contradiction, contradictions, probe_all, probe_records,
+    read_probe,
 };
 pub(crate) use measured::{arms_are_measured, forces_are_late, is_contradicted, other_program};
 pub use measured_arms::{MeasuredArms, UnusablePassport};

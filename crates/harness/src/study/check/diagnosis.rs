@@ -141,11 +141,7 @@ fn located(known: &Known, stack: Option<Compressed>, micro: Option<&Micro>) -> L
     let Some(micro) = micro else {
         return Located::default();
     };
-    let leaps = (micro.findings.settled.velocity_lag - LEAPFROG_LAG).abs() < SAME_MOTION;
-    let conventions = micro.conventions().into_iter();
-    let failing = conventions.map(|own| equations::failing(&micro.answers, own, leaps));
-    let fewest = failing.min_by_key(|own| (!own.is_explained, own.texts.len()));
-    match fewest {
+    match failing_equations(micro) {
         Some(own) if !own.texts.is_empty() => Located {
             texts: own.texts,
             is_known: own.is_explained,
@@ -166,6 +162,14 @@ fn located(known: &Known, stack: Option<Compressed>, micro: Option<&Micro>) -> L
     }
 }
 
+/// Returns the equations that fail in the micro-tests, under the convention that explains them best.
+fn failing_equations(micro: &Micro) -> Option<equations::Failing> {
+    let leaps = (micro.findings.settled.velocity_lag - LEAPFROG_LAG).abs() < SAME_MOTION;
+    let conventions = micro.conventions().into_iter();
+    let failing = conventions.map(|own| equations::failing(&micro.answers, own, leaps));
+    failing.min_by_key(|own| (!own.is_explained, own.texts.len()))
+}
+
 /// Turns an item that failed because of a valid rule into a remark. A declaration of another rule stays wrong.
 fn excused(item: Item, rule: &str) -> Item {
     match item.outcome {
@@ -178,7 +182,8 @@ fn excused(item: Item, rule: &str) -> Item {
     }
 }
 
-/// Returns the mistakes that explain the micro-tests of a code whose stack explodes.
+/// Returns the mistakes that explain the micro-tests of a code whose stack explodes, or else the equations that fail in
+/// them.
 pub(super) fn of_motions(micro: &Micro) -> Vec<String> {
     let each = micro.conventions().into_iter().map(|convention| {
         let motions: Vec<Evidence> = micro
@@ -191,9 +196,8 @@ pub(super) fn of_motions(micro: &Micro) -> Vec<String> {
             false => Vec::new(),
         }
     });
-    each.into_iter()
-        .find(|causes| !causes.is_empty())
-        .unwrap_or_default()
+    let found = each.into_iter().find(|causes| !causes.is_empty());
+    found.unwrap_or_else(|| failing_equations(micro).map_or_else(Vec::new, |own| own.texts))
 }
 
 /// The results of a code, compared with those of its twins.

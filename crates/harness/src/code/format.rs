@@ -6,6 +6,7 @@ use crate::series::{
 };
 use schemars::JsonSchema;
 use serde::Deserialize;
+use serde_json::Value;
 
 /// LIGGGHTS cuts the words of a header to this many characters.
 const CUT: usize = 8;
@@ -16,23 +17,70 @@ const CUT: usize = 8;
 pub enum ParameterFormat {
     /// A JSON object, numbers in their shortest exact form.
     Json,
-    /// The same as TOML.
+    /// The same as TOML: `name = number`, one a line, and after them the lists, one a line as well.
     Toml,
-    /// Variables of LAMMPS and LIGGGHTS; of string style, because it alone passes every digit.
+    /// Variables of LAMMPS and LIGGGHTS; of string style, because it alone passes every digit. A list has its length under
+    /// its name, and each number of its entries, which count from 1, a name like `bodies_1_radius`; a word in a list is 1
+    /// under a name like `features_friction`.
     LammpsVariables,
 }
 
 impl ParameterFormat {
-    /// Formats `parameters`, an object of numbers, as the content of their file.
-    pub fn content(self, parameters: &serde_json::Value) -> String {
-        let (before, between) = match self {
-            Self::Json => return format!("{parameters:#}\n"),
-            Self::Toml => ("", " = "),
-            Self::LammpsVariables => ("variable ", " string "),
-        };
+    /// Formats `parameters`, an object of numbers and lists, as the content of their file.
+    pub fn content(self, parameters: &Value) -> String {
         let entries = parameters.as_object().into_iter().flatten();
-        let lines = entries.map(|(name, number)| format!("{before}{name}{between}{number}\n"));
-        lines.collect()
+        match self {
+            Self::Json => format!("{parameters:#}\n"),
+            Self::Toml => {
+                // What reads `name = number` line by line has every number before it meets a list.
+                let (lists, numbers): (Vec<_>, Vec<_>) =
+                    entries.partition(|(_, value)| value.is_array());
+                let all = numbers.into_iter().chain(lists);
+                all.map(|(name, value)| format!("{name} = {}\n", in_toml(value)))
+                    .collect()
+            }
+            Self::LammpsVariables => {
+                let all = entries.flat_map(|(name, value)| variables(name, value));
+                all.map(|(name, number)| format!("variable {name} string {number}\n"))
+                    .collect()
+            }
+        }
+    }
+}
+
+/// Formats a value of TOML on one line, in which ` = ` stands nowhere.
+fn in_toml(value: &Value) -> String {
+    match value {
+        Value::Array(entries) => {
+            let entries: Vec<String> = entries.iter().map(in_toml).collect();
+            format!("[{}]", entries.join(", "))
+        }
+        Value::Object(entries) => {
+            let entries = entries.iter();
+            let entries = entries.map(|(name, value)| format!("{name}={}", in_toml(value)));
+            format!("{{{}}}", entries.collect::<Vec<_>>().join(", "))
+        }
+        plain => plain.to_string(),
+    }
+}
+
+/// Returns the variables that stand for `value`, a parameter or a part of one, by name and number.
+fn variables(name: &str, value: &Value) -> Vec<(String, String)> {
+    match value {
+        Value::Array(entries) => {
+            let own = (1..).zip(entries).flat_map(|(number, entry)| match entry {
+                Value::String(word) => vec![(format!("{name}_{word}"), "1".to_owned())],
+                _ => variables(&format!("{name}_{number}"), entry),
+            });
+            let length = (name.to_owned(), entries.len().to_string());
+            std::iter::once(length).chain(own).collect()
+        }
+        Value::Object(entries) => {
+            let entries = entries.iter();
+            let own = entries.flat_map(|(key, value)| variables(&format!("{name}_{key}"), value));
+            own.collect()
+        }
+        number => vec![(name.to_owned(), number.to_string())],
     }
 }
 
@@ -242,6 +290,30 @@ mod tests {
         );
         let variables = ParameterFormat::LammpsVariables.content(&parameters);
         assert!(variables.ends_with("variable steps string 3\nvariable time_step string 0.1\n"));
+    }
+
+    #[test]
+    fn lists_come_after_the_numbers_and_have_a_line_each() {
+        let bodies =
+            serde_json::json!([{ "mass": 1.5, "radius": 0.1 }, { "mass": 2, "radius": 1e-300 }]);
+        let parameters =
+            serde_json::json!({ "bodies": bodies, "features": ["friction"], "steps": 3 });
+        let toml = ParameterFormat::Toml.content(&parameters);
+        assert_eq!(
+            toml,
+            "steps = 3\nbodies = [{mass=1.5, radius=0.1}, {mass=2, radius=1e-300}]\nfeatures = [\"friction\"]\n"
+        );
+        let read: toml::Table = toml.parse().unwrap();
+        assert_eq!(serde_json::to_value(read).unwrap(), parameters);
+        assert_eq!(
+            ParameterFormat::LammpsVariables.content(&parameters),
+            "variable bodies string 2\nvariable bodies_1_mass string 1.5\nvariable bodies_1_radius string 0.1\n\
+             variable bodies_2_mass string 2\nvariable bodies_2_radius string 1e-300\nvariable features string 1\n\
+             variable features_friction string 1\nvariable steps string 3\n"
+        );
+        let nothing =
+            ParameterFormat::LammpsVariables.content(&serde_json::json!({ "features": [] }));
+        assert_eq!(nothing, "variable features string 0\n");
     }
 
     #[test]

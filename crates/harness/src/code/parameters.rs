@@ -7,13 +7,25 @@ use crate::model::{
 };
 use serde_json::{Map, Value, json};
 
-/// Refuses parameters that are not finite numbers: some parameters of a micro-test were measured with the code.
+/// Refuses parameters that are not finite numbers, or lists of such and of words: some parameters of a micro-test were
+/// measured with the code.
 pub(super) fn only_numbers(parameters: &Value) -> Result<(), InvalidValue> {
     let mut named = parameters.as_object().into_iter().flatten();
-    let other = named.find(|(_, value)| !value.is_number());
-    other.map_or(Ok(()), |(name, value)| {
-        Err(refused(name, value, "a finite number"))
-    })
+    named.try_for_each(|(name, value)| finite(name, value))
+}
+
+fn finite(name: &str, value: &Value) -> Result<(), InvalidValue> {
+    match value {
+        Value::Number(_) => Ok(()),
+        Value::Array(entries) => (1..)
+            .zip(entries)
+            .filter(|(_, entry)| !entry.is_string())
+            .try_for_each(|(number, entry)| finite(&format!("{name}[{number}]"), entry)),
+        Value::Object(entries) => entries
+            .iter()
+            .try_for_each(|(key, value)| finite(&format!("{name}.{key}"), value)),
+        other => Err(refused(name, other, "a finite number")),
+    }
 }
 
 /// Returns the parameters of a case as the decks of the external codes read them.

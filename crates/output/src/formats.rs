@@ -10,7 +10,7 @@ use super::{
     published_series, pyramids, regimes, scaling, simulations, stored, stored_entries,
     stored_files, theory, trajectories,
 };
-use crate::code::{PARAMETERS, TaskKind};
+use crate::code::{Entry, Feature, LISTS, PARAMETERS, TaskKind};
 use crate::model::PAPER_BODIES;
 use crate::series::{Column, MotionRow, Sample};
 
@@ -52,6 +52,24 @@ const TASKS: &str = "
 
 What a code is given for a task. Cylinder 1 is the top one, 2 the right one, 3 the left one.
 
+`schema` is raised when a parameter goes or changes its meaning, and then alone: further parameters and further numbers of
+an entry may join, lists may get longer and tasks may name further features. So a code passes over names that it does
+not know, and ends with a message where `features` names something that it does not have.
+
+The file is one of these, by `format` under `[parameters]` of a manifest:
+
+* `json`: an object. `bodies` is a list of objects, `features` a list of strings.
+* `toml`: `name = number`, one a line, and after them the lists, each on a line of its own with the same content. The
+  value of a list begins with `[`: a program that reads numbers line by line ends there, or passes over such lines.
+* `lammps-variables`: `variable NAME string NUMBER`, one a line, for LAMMPS and LIGGGHTS. A list has its length under its
+  name (`bodies`, `features`); numbers of its entries, which count from 1, are `bodies_1_radius`, `bodies_1_mass`, …; a
+  feature that is on is 1 under `features_friction`, and one that is off has no variable. A deck that has friction alone:
+
+      variable features_friction string 0
+      include  task.in
+      variable others equal ${features}-${features_friction}
+      if \"${others} > 0\" then \"print 'features: friction alone is known here'\" \"quit 1\"
+
 ";
 
 /// Returns the content of docs/formats.md: all machine-readable tables and files, with unit and meaning of each column.
@@ -66,6 +84,8 @@ pub fn formats_page() -> String {
         + &files.collect::<String>()
         + TASKS
         + &task().described()
+        + "\n"
+        + &features().described()
 }
 
 /// Returns every table that is also written as JSON, without rows.
@@ -150,24 +170,59 @@ pub(super) fn result_files() -> [DataTable<'static>; 4] {
 fn task() -> DataTable<'static> {
     let mut columns = Columns::<()>::new(
         "task",
-        "One flat object of numbers: everything that a deck needs, in the units r = m = k_n = 1. Each task has those of \
-         its own; a manifest with `content = \"deck\"` under `[parameters]` gets fewer, those that its decks read.",
+        "One object of numbers and, at the end of this table, lists: everything that a deck needs, in the units r = m = k_n = 1. \
+         Each task has those of its own; a manifest with `content = \"deck\"` under `[parameters]` gets fewer, those that its \
+         decks read, and no lists.",
         "task.json, or the file that `[parameters]` of a manifest names",
     );
     for parameter in PARAMETERS {
-        let kinds: Vec<&str> = parameter.tasks.iter().map(|kind| kind.as_str()).collect();
-        let mut notes = Vec::new();
-        if kinds.len() < TaskKind::ALL.len() {
-            notes.push(kinds.join(", "));
-        }
-        notes.extend(parameter.when.limits().map(str::to_owned));
-        let meaning = match notes.is_empty() {
-            true => parameter.meaning.to_owned(),
-            false => format!("{} ({})", parameter.meaning, notes.join("; ")),
-        };
+        let meaning = noted(parameter.meaning, parameter.tasks, parameter.when.limits());
         columns = columns
             .number(parameter.name, parameter.unit, |()| f64::NAN)
             .means(meaning);
+    }
+    for list in LISTS {
+        columns = columns
+            .text(list.name, |()| "")
+            .means(noted(list.meaning, list.tasks, None));
+        let Entry::Numbers(numbers) = list.entry else {
+            continue;
+        };
+        for number in numbers {
+            let name = format!("{}[].{}", list.name, number.name);
+            columns = columns
+                .number(name, number.unit, |()| f64::NAN)
+                .means(number.meaning);
+        }
+    }
+    columns.rows([])
+}
+
+/// Returns `meaning`, with the tasks and the condition in parentheses if there are any.
+fn noted(meaning: &str, tasks: &[TaskKind], limits: Option<&str>) -> String {
+    let kinds: Vec<&str> = tasks.iter().map(|kind| kind.as_str()).collect();
+    let mut notes = Vec::new();
+    if kinds.len() < TaskKind::ALL.len() {
+        notes.push(kinds.join(", "));
+    }
+    notes.extend(limits.map(str::to_owned));
+    match notes.is_empty() {
+        true => meaning.to_owned(),
+        false => format!("{meaning} ({})", notes.join("; ")),
+    }
+}
+
+/// Returns the table that declares what may be named in `features` of a task.
+fn features() -> DataTable<'static> {
+    let mut columns = Columns::<()>::new(
+        "features",
+        "What contacts have beyond a spring and a dashpot along their normal, by name.",
+        "`features` of a task",
+    );
+    for feature in Feature::ALL {
+        columns = columns
+            .text(feature.as_str(), |()| "")
+            .means(feature.meaning());
     }
     columns.rows([])
 }

@@ -115,8 +115,8 @@ fn link(name: &str) -> Value {
 
 fn task() -> Value {
     let kinds = TaskKind::ALL.map(|kind| (kind.as_str(), kind.parameters_schema()));
-    let about = "Parameters of a task, one flat object of numbers, in the units r = m = k_n = 1; decks with `content = \"deck\"` are given \
-                 fewer.";
+    let about = "Parameters of a task, one object of numbers and lists, in the units r = m = k_n = 1; decks with `content = \"deck\"` are \
+                 given fewer, and no lists.";
     one_of(about, kinds)
 }
 

@@ -163,14 +163,40 @@ fn tasks_fit_theirs_and_every_parameter_has_unit_and_meaning() {
         let mut required: Vec<&str> = required.filter_map(Value::as_str).collect();
         required.sort_unstable();
         assert_eq!(required, names(&task), "{kind}");
-        for (name, parameter) in declared.as_object().expect("parameters") {
-            for key in ["x-unit", "description"] {
-                assert!(parameter[key].is_string(), "{kind}: {name} has no {key}");
+        let described = |own: &Value, keys: &[&str]| {
+            for key in keys {
+                assert!(own[key].is_string(), "{kind}: {own} has no {key}");
+            }
+        };
+        for parameter in declared.as_object().expect("parameters").values() {
+            if parameter["type"] == "number" {
+                described(parameter, &["x-unit", "description"]);
+                continue;
+            }
+            assert_eq!(parameter["type"], "array", "{kind}");
+            described(parameter, &["description"]);
+            let numbers = parameter["items"]["properties"].as_object();
+            for number in numbers.into_iter().flat_map(|own| own.values()) {
+                described(number, &["x-unit", "description"]);
             }
         }
         let mut less = task.clone();
         less.as_object_mut().expect("keys").remove("time_step");
         fits_not(&schema, &less, "time_step");
+        assert_eq!(task["features"], json!(["friction"]), "{kind}");
+        let mut other = task.clone();
+        other["features"][0] = json!("flying");
+        fits_not(&schema, &other, "features/0");
+        let Some(bodies) = task["bodies"].as_array() else {
+            assert_eq!(kind, "pyramid");
+            continue;
+        };
+        assert_eq!(bodies.len(), if kind == "motion" { 2 } else { 3 }, "{kind}");
+        other = task;
+        other["bodies"][1] = json!({ "radius": 1.0, "mass": "heavy", "moment_of_inertia": 0.5 });
+        fits_not(&schema, &other, "bodies/1/mass");
+        other["bodies"][1] = json!({ "radius": 1.0, "mass": 1.0 });
+        fits_not(&schema, &other, "moment_of_inertia");
     }
 }
 

@@ -1,13 +1,15 @@
 //! Everything that a deck needs to carry out a task without deriving anything: units, bodies, contacts, steps and
-//! starting positions. Each number is declared once.
+//! starting positions. Each number and each list is declared once.
 
+use super::feature::Feature;
 use super::manifest::TaskKind;
 use super::parameters::{self, merged};
 use crate::model::{Case, ContactConvention, ContactTest, PAPER_BODIES, PreparationSteps, Pyramid};
 use serde_json::{Map, Value, json};
 
-/// Raised when a parameter is removed or changes its meaning.
-const SCHEMA: u32 = 1;
+/// Raised when a parameter is removed or changes its meaning. Parameters and features may join, and lists may grow,
+/// without another version; 1 had no lists.
+const SCHEMA: u32 = 2;
 
 /// A named number of a task.
 #[derive(Debug)]
@@ -19,6 +21,33 @@ pub struct Parameter {
     pub tasks: &'static [TaskKind],
     /// The condition under which they have it.
     pub when: When,
+}
+
+/// A named list of a task.
+#[derive(Debug)]
+pub struct List {
+    pub name: &'static str,
+    pub meaning: &'static str,
+    /// The tasks that have it.
+    pub tasks: &'static [TaskKind],
+    pub entry: Entry,
+}
+
+/// What the entries of a list are.
+#[derive(Debug)]
+pub enum Entry {
+    /// Objects with these numbers.
+    Numbers(&'static [Number]),
+    /// Names of features.
+    Feature,
+}
+
+/// A named number of an entry.
+#[derive(Debug)]
+pub struct Number {
+    pub name: &'static str,
+    pub unit: &'static str,
+    pub meaning: &'static str,
 }
 
 /// The condition under which a task has a parameter.
@@ -52,6 +81,7 @@ impl When {
 use TaskKind::{Motion, Pyramid as Pile, SideWalls, Spheres, SpheresMotion, Stack};
 
 const EVERY: &[TaskKind] = &[Stack, SideWalls, Motion, Pile, Spheres, SpheresMotion];
+const FEW_BODIES: &[TaskKind] = &[Stack, SideWalls, Motion, Spheres, SpheresMotion];
 const COMPRESSION: &[TaskKind] = &[Stack, SideWalls, Spheres];
 const AT_REST: &[TaskKind] = &[Stack, SideWalls, Pile, Spheres];
 const RAMP: &[TaskKind] = &[Stack, Pile, Spheres];
@@ -83,10 +113,10 @@ macro_rules! parameters {
 }
 
 parameters! {
-    "schema", "1", EVERY, "version of this list";
-    "radius", "r", EVERY, "radius of a body, a cylinder or sphere: 1, the unit of length";
-    "mass", "m", EVERY, "mass of a body: 1, the unit of mass";
-    "moment_of_inertia", "m r²", EVERY, "moment of inertia of a body: of a cylinder about its axis; of a sphere 0.4";
+    "schema", "1", EVERY, "version of the parameters: 2; 1, written until 2026, had no `bodies` and no `features`";
+    "radius", "r", EVERY, "radius of every body, cylinder or sphere, where all are equal: 1, the unit of length";
+    "mass", "m", EVERY, "mass of every body, where all are equal: 1, the unit of mass";
+    "moment_of_inertia", "m r²", EVERY, "moment of inertia of every body, where all are equal: of a cylinder about its axis; of a sphere 0.4";
     "normal_stiffness", "k_n", EVERY, "stiffness of every contact along its normal, those of the walls included: 1";
     "tangential_stiffness", "k_n", EVERY, "stiffness of the tangential spring of every contact with friction";
     "normal_power", "1", EVERY where NotLinear, "exponent p of the normal force: normal_stiffness overlap^p; tangential_stiffness and damping are those at an overlap of r, and grow with its powers p - 1 and, in the convention of most codes, (p - 1)/2";
@@ -178,24 +208,82 @@ parameters! {
     "timed_steps", "1", PILE, "steps whose duration is measured, the last ones";
 }
 
+/// Every list of every task.
+pub static LISTS: &[List] = &[
+    List {
+        name: "features",
+        meaning: "names of what is on beyond normal forces, of those under `features`; a code that does not have one of \
+                  them must end with a message",
+        tasks: EVERY,
+        entry: Entry::Feature,
+    },
+    List {
+        name: "bodies",
+        meaning: "an entry for each body, in the order of their numbers; cylinders.data lists those of a pyramid",
+        tasks: FEW_BODIES,
+        entry: Entry::Numbers(&[
+            Number {
+                name: "radius",
+                unit: "r",
+                meaning: "its radius",
+            },
+            Number {
+                name: "mass",
+                unit: "m",
+                meaning: "its mass",
+            },
+            Number {
+                name: "moment_of_inertia",
+                unit: "m r²",
+                meaning: "its moment of inertia: of a cylinder about its axis, of a sphere about any",
+            },
+        ]),
+    },
+];
+
 impl TaskKind {
-    /// JSON Schema of its parameters; `x-unit` is the unit of each.
+    /// JSON Schema of its parameters; `x-unit` is the unit of each number.
     pub fn parameters_schema(self) -> Value {
-        let own: Vec<&Parameter> = PARAMETERS
-            .iter()
-            .filter(|one| one.tasks.contains(&self))
-            .collect();
-        let described = own.iter().map(|one| {
-            let schema =
-                json!({ "description": one.meaning, "type": "number", "x-unit": one.unit });
+        let own = PARAMETERS.iter().filter(|one| one.tasks.contains(&self));
+        let lists = LISTS.iter().filter(|one| one.tasks.contains(&self));
+        let numbers = own.clone().map(|one| {
+            let schema = number_schema(one.meaning, one.unit);
             (one.name.to_owned(), schema)
         });
+        let described = numbers.chain(lists.clone().map(|one| (one.name.to_owned(), one.schema())));
+        let required = own.filter(|one| one.when == When::Every);
+        let required = required.map(|one| one.name);
         json!({
             "type": "object",
             "properties": described.collect::<Map<_, _>>(),
-            "required": own.iter().filter(|one| one.when == When::Every).map(|one| one.name).collect::<Vec<_>>(),
+            "required": required.chain(lists.map(|one| one.name)).collect::<Vec<_>>(),
         })
     }
+}
+
+impl List {
+    fn schema(&self) -> Value {
+        let items = match self.entry {
+            Entry::Feature => {
+                json!({ "type": "string", "enum": Feature::ALL.map(Feature::as_str) })
+            }
+            Entry::Numbers(numbers) => {
+                let described = numbers.iter();
+                let described = described
+                    .map(|one| (one.name.to_owned(), number_schema(one.meaning, one.unit)));
+                json!({
+                    "type": "object",
+                    "properties": described.collect::<Map<_, _>>(),
+                    "required": numbers.iter().map(|one| one.name).collect::<Vec<_>>(),
+                })
+            }
+        };
+        json!({ "description": self.meaning, "type": "array", "items": items })
+    }
+}
+
+fn number_schema(meaning: &str, unit: &str) -> Value {
+    json!({ "description": meaning, "type": "number", "x-unit": unit })
 }
 
 /// The parameters of a case.
@@ -215,8 +303,11 @@ pub(super) fn of_case(case: &Case) -> Value {
         PAPER_BODIES => "xy",
         _ => "xyz",
     };
+    let [mu, mu_d] = [case.stack.floor_friction, case.stack.cylinder_friction];
     merged([
-        of_bodies(&case.convention),
+        of_equal_bodies(&case.convention),
+        each_body(&case.convention, centres.len()),
+        features(mu, mu_d),
         parameters::of_case(case),
         parameters::initial_positions(&centres, axes),
         json!({
@@ -229,28 +320,46 @@ pub(super) fn of_case(case: &Case) -> Value {
 /// The parameters of a micro-test.
 pub(super) fn of_contact_test(test: &ContactTest) -> Value {
     merged([
-        of_bodies(&test.convention),
+        of_equal_bodies(&test.convention),
+        each_body(&test.convention, test.initial_motions.len()),
+        features(test.floor_friction, test.cylinder_friction),
         parameters::of_contact_test(test),
         json!({ "gravity": 0.0 }),
     ])
 }
 
-/// The parameters of a pyramid.
+/// The parameters of a pyramid. It may have half a million cylinders, which cylinders.data lists.
 pub(super) fn of_pyramid(pyramid: &Pyramid) -> Value {
+    let groups = &pyramid.groups;
     merged([
-        of_bodies(&pyramid.convention),
+        of_equal_bodies(&pyramid.convention),
+        features(groups.floor_friction, groups.cylinder_friction),
         parameters::of_pyramid(pyramid),
     ])
 }
 
-fn of_bodies(convention: &ContactConvention) -> Value {
-    json!({
-        "schema": SCHEMA,
-        "radius": 1.0,
-        "mass": 1.0,
-        "moment_of_inertia": convention.moment_of_inertia,
-        "restitution": convention.restitution,
-    })
+fn of_equal_bodies(convention: &ContactConvention) -> Value {
+    merged([
+        body(convention),
+        json!({ "schema": SCHEMA, "restitution": convention.restitution }),
+    ])
+}
+
+fn each_body(convention: &ContactConvention, count: usize) -> Value {
+    json!({ "bodies": vec![body(convention); count] })
+}
+
+fn body(convention: &ContactConvention) -> Value {
+    json!({ "radius": 1.0, "mass": 1.0, "moment_of_inertia": convention.moment_of_inertia })
+}
+
+/// Returns the features that are on with these friction coefficients of the floor and between bodies.
+fn features(mu: f64, mu_d: f64) -> Value {
+    let is_on = |feature: &Feature| match feature {
+        Feature::Friction => mu > 0.0 || mu_d > 0.0,
+    };
+    let on = Feature::ALL.into_iter().filter(is_on);
+    json!({ "features": on.map(Feature::as_str).collect::<Vec<_>>() })
 }
 
 #[cfg(test)]
@@ -286,7 +395,7 @@ mod tests {
     }
 
     #[test]
-    fn every_number_of_every_task_is_declared_and_given() {
+    fn every_number_and_list_of_every_task_is_declared_and_given() {
         let walls = Preparation::SideWalls(Walls::paper(0.005, 0.01));
         for law in [Law::LINEAR, Law::HERTZ] {
             let convention = ContactConvention::with_law(law);
@@ -312,15 +421,75 @@ mod tests {
                 (Pile, of_pyramid(&pyramid)),
             ] {
                 let given = given.as_object().expect("an object");
-                assert!(given.values().all(Value::is_number), "numbers only");
-                let given: Vec<&str> = given.keys().map(String::as_str).collect();
+                let names = |is_kind: fn(&Value) -> bool| -> Vec<&str> {
+                    let own = given.iter().filter(|(_, value)| is_kind(value));
+                    own.map(|(name, _)| name.as_str()).collect()
+                };
                 let own = PARAMETERS.iter().filter(|one| one.tasks.contains(&kind));
                 let own = own.filter(|one| one.when == When::Every || !law.is_linear());
                 let mut declared: Vec<&str> = own.map(|one| one.name).collect();
                 declared.sort_unstable();
-                assert_eq!(given, declared, "{kind:?}, {law}");
+                assert_eq!(names(Value::is_number), declared, "{kind:?}, {law}");
+                let own = LISTS.iter().filter(|one| one.tasks.contains(&kind));
+                let mut declared: Vec<&str> = own.map(|one| one.name).collect();
+                declared.sort_unstable();
+                assert_eq!(names(Value::is_array), declared, "{kind:?}, {law}");
+                assert_eq!(
+                    names(|value| !value.is_number() && !value.is_array()),
+                    [""; 0]
+                );
             }
         }
+    }
+
+    #[test]
+    fn every_body_has_the_numbers_that_are_declared_for_each() {
+        let spheres = Case {
+            stack: Groups {
+                bodies: 4,
+                ..Groups::paper(0.3, 100.0)
+            },
+            ..case(ramp())
+        };
+        let test = witness_test(ContactConvention::TURNING);
+        let declared = LISTS.iter().find_map(|list| match list.entry {
+            Entry::Numbers(numbers) if list.name == "bodies" => Some(numbers),
+            _ => None,
+        });
+        let declared = declared.expect("they are declared");
+        for (given, count) in [
+            (of_case(&case(ramp())), 3),
+            (of_case(&spheres), 5),
+            (of_contact_test(&test), 2),
+        ] {
+            let bodies = given["bodies"].as_array().expect("a list");
+            assert_eq!(bodies.len(), count);
+            for body in bodies {
+                assert_eq!(body.as_object().expect("a body").len(), declared.len());
+                // All are equal.
+                for number in declared {
+                    assert_eq!(body[number.name], given[number.name], "{}", number.name);
+                    assert!(body[number.name].is_number(), "{}", number.name);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn friction_is_a_feature_where_any_contact_has_it() {
+        for (mu, mu_d, on) in [
+            (0.0, 0.0, json!([])),
+            (0.3, 0.0, json!(["friction"])),
+            (0.0, 0.7, json!(["friction"])),
+        ] {
+            let test = ContactTest {
+                floor_friction: mu,
+                cylinder_friction: mu_d,
+                ..witness_test(ContactConvention::TURNING)
+            };
+            assert_eq!(of_contact_test(&test)["features"], on);
+        }
+        assert_eq!(of_case(&case(ramp()))["features"], json!(["friction"]));
     }
 
     #[test]

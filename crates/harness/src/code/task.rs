@@ -33,8 +33,8 @@ pub trait Task: Copy + std::fmt::Display + Sync {
     /// Named numbers for the decks that come with tristack.
     fn parameters(&self) -> serde_json::Value;
 
-    /// Everything that a deck needs, as named numbers: [`Self::parameters`], and the units, bodies and starting
-    /// positions.
+    /// Everything that a deck needs, as named numbers and lists: [`Self::parameters`], and the units, bodies, features
+    /// and starting positions.
     fn all_parameters(&self) -> serde_json::Value;
 
     /// Refuses values out of range.

@@ -1,9 +1,12 @@
 //! Codes whose contacts or bodies are of another kind than the example's: copies of it.
 
-use crate::common::Bench;
+use crate::common::{Bench, project};
 use crate::schemes::{CROSSCHECK, changed, rows};
 use serde::Deserialize;
 use std::fs;
+use std::process::Command;
+use tristack::code::{ParameterFormat, Task, witness_test};
+use tristack::model::ContactConvention;
 
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -90,4 +93,91 @@ fn the_contact_point_of_a_measured_arm_is_told_in_words() {
     assert_eq!(status, 0, "{told}");
     let point = "on the floor, the contact point lies 1.5 overlaps inside the surface of the undeformed body";
     assert!(told.contains(point), "{told}");
+}
+
+/// Changes with which the example takes radius, mass and moment of inertia of each body from `bodies`.
+const FROM_BODIES: [[&str; 2]; 14] = [
+    ["RADIUS, MASS, INERTIA = 1.0, 1.0, 0.5", ""],
+    [
+        "self, x, y, vx=0.0, vy=0.0, spin=0.0):",
+        "self, own, x, y, vx=0.0, vy=0.0, spin=0.0):\n        self.own = own",
+    ],
+    ["-MASS *", "-self.own[\"mass\"] *"],
+    ["/ MASS", "/ self.own[\"mass\"]"],
+    ["/ INERTIA", "/ self.own[\"moment_of_inertia\"]"],
+    [
+        "RADIUS * (one.spin + two.spin)",
+        "(one.own[\"radius\"] * one.spin + two.own[\"radius\"] * two.spin)",
+    ],
+    ["2.0 * RADIUS", "one.own[\"radius\"] + two.own[\"radius\"]"],
+    ["torque = -RADIUS *", "torque = -1.0 *"],
+    [
+        "one.torque + torque",
+        "one.torque + one.own[\"radius\"] * torque",
+    ],
+    [
+        "two.torque + torque",
+        "two.torque + two.own[\"radius\"] * torque",
+    ],
+    ["top.y + RADIUS", "top.y + top.own[\"radius\"]"],
+    ["RADIUS", "body.own[\"radius\"]"],
+    ["[Cylinder(", "[Cylinder(task[\"bodies\"][int(body) - 1], "],
+    [
+        "        parameters = json.load(file)",
+        "        task = parameters = json.load(file)",
+    ],
+];
+
+/// The line of docs/your-own-code.md with which a code refuses features that it does not have.
+fn refusing_line() -> String {
+    let page = fs::read_to_string(project().join("docs/your-own-code.md")).expect("a page");
+    let mut lines = page.lines();
+    let line = lines.find(|line| line.contains("task[\"features\"]"));
+    line.expect("it is there").to_owned()
+}
+
+/// What `mydem.py` of the bench writes for a micro-test.
+fn motion(bench: &Bench) -> Vec<u8> {
+    let folder = bench.path("mydem");
+    let task = witness_test(ContactConvention::TURNING).all_parameters();
+    let content = ParameterFormat::Json.content(&task);
+    fs::write(folder.join("task.json"), content).expect("a task");
+    let mut command = Command::new("python3");
+    let status = command.arg("mydem.py").current_dir(&folder).status();
+    assert!(status.expect("it runs").success());
+    let motion = fs::read(folder.join("result.csv")).expect("a motion");
+    for file in ["task.json", "result.csv"] {
+        fs::remove_file(folder.join(file)).expect("it is removed");
+    }
+    motion
+}
+
+/// The series of a stack by the code of the bench, if there is one, and what is said.
+fn series(bench: &Bench) -> (Option<Vec<u8>>, String) {
+    let line = "simulate --code ./mydem --mu 0.3 --stiffness 100 --speed 1e-3 --out out";
+    let output = bench.tristack(line).output().expect("it runs");
+    let message = String::from_utf8_lossy(&output.stderr).into_owned();
+    (fs::read(bench.path("out/series.csv")).ok(), message)
+}
+
+/// A copy that takes every body from `bodies` is the example, bit for bit; one without friction refuses the task.
+#[test]
+fn a_code_may_take_each_body_from_the_list_and_refuse_features() {
+    let load = "        task = parameters = json.load(file)";
+    let copy = |line: String| {
+        let loading = format!("{load}\n    {line}");
+        let further = [[load, loading.as_str()]];
+        changed(FROM_BODIES.into_iter().chain(further))
+    };
+    let line = refusing_line();
+    let (example, own) = (changed([].into_iter()), copy(line.clone()));
+    assert!(motion(&own) == motion(&example), "the motions differ");
+    let ((found, message), (expected, _)) = (series(&own), series(&example));
+    assert!(found.is_some(), "{message}");
+    assert!(found == expected, "the series differ");
+    let without_friction = copy(line.replace("{\"friction\"}", "set()"));
+    let (found, message) = series(&without_friction);
+    assert_eq!(found, None);
+    let expected = "features: {'friction'} are not in this code";
+    assert!(message.contains(expected), "{message}");
 }

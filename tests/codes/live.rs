@@ -3,8 +3,8 @@
 
 use crate::common;
 use crate::common::{
-    Bench, OWN_PROGRAM, are_as_on_file, assert_only, code_folder, json_rows, network, recording,
-    released_program,
+    Bench, OWN_PROGRAM, are_as_on_file, assert_only, code_folder, json_rows, network, project,
+    recording, released_program,
 };
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -576,5 +576,63 @@ fn a_stack_of_spheres_does_not_see_from_where_it_is_looked_at() {
         let line = told.lines().find(|line| line.contains(item));
         let line = line.unwrap_or_else(|| panic!("{told}"));
         assert!(line.contains("the same onset"), "{line}");
+    }
+}
+
+/// A deck that includes all that a task gives, as docs/formats.md has it, is the deck that includes what it reads; one
+/// that does not have friction ends with its message.
+#[test]
+fn decks_take_bodies_and_features_as_variables() {
+    let page = fs::read_to_string(project().join("docs/formats.md")).expect("a page");
+    let lines = page.lines().map(str::trim);
+    let lines = lines.skip_while(|line| !line.starts_with("variable features_friction"));
+    let refusing: Vec<&str> = lines.take_while(|line| !line.is_empty()).collect();
+    assert_eq!(refusing.len(), 4, "{refusing:?}");
+    let installed = installed();
+    for name in ["lammps", "liggghts"] {
+        if !installed.iter().any(|code| code.as_str() == name) {
+            continue;
+        }
+        let bench = Bench::with_system_programs();
+        let folder = code_folder(&format!("{name}_inputs"), &bench.path("mydem"), |text| {
+            let renamed = text.replacen(&format!("name = \"{name}\""), "name = \"mydem\"", 1);
+            let file = renamed.replace("\"parameters.in\"", "\"task.in\"");
+            file.replace("content = \"deck\"", "content = \"task\"")
+        });
+        let deck = fs::read_to_string(folder.join("stack.in")).expect("a deck");
+        let including = |lines: &str| {
+            let own = deck.lines().map(|line| {
+                let is_include = line.starts_with("include") && line.ends_with(" parameters.in");
+                if is_include { lines } else { line }
+            });
+            let own: Vec<&str> = own.collect();
+            assert_ne!(own.join("\n"), deck.trim_end());
+            own.join("\n") + "\n"
+        };
+        let series = |code: &str, out: &str| {
+            let case = "--mu 0.3 --stiffness 100 --speed 1e-3";
+            let line = format!("simulate --code {code} {case} --out {out}");
+            let output = bench.tristack(&line).output().expect("it runs");
+            let message = String::from_utf8_lossy(&output.stderr).into_owned();
+            (fs::read(bench.path(out).join("series.csv")).ok(), message)
+        };
+        let write = |lines: &str| {
+            fs::write(folder.join("stack.in"), including(lines)).expect("a deck");
+        };
+        let read_each = "variable total equal v_bodies_1_mass+v_bodies_2_radius+v_bodies_3_moment_of_inertia\n\
+                         if \"${total} <= 2\" then \"print 'no bodies'\" \"quit 1\"";
+        write(&format!("{}\n{read_each}", refusing.join("\n")));
+        let (own, message) = series("./mydem", "own");
+        assert!(own.is_some(), "{message}");
+        assert!(own == series(name, "built-in").0, "{message}");
+        write(
+            &refusing
+                .join("\n")
+                .replace("features_friction", "features_rolling"),
+        );
+        let (none, message) = series("./mydem", "none");
+        assert_eq!(none, None);
+        let expected = "features: friction alone is known here";
+        assert!(message.contains(expected), "{message}");
     }
 }

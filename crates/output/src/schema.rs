@@ -4,7 +4,7 @@
 use super::case_file::case_schema;
 use super::formats::{json_tables, result_files};
 use super::passport::passport_schema;
-use crate::code::{Definition, TaskKind};
+use crate::code::{Definition, TASK_SCHEMA, TaskKind};
 use crate::model::PartialCase;
 use crate::paper::published::GivenCase;
 use schemars::generate::SchemaSettings;
@@ -88,7 +88,11 @@ impl Document {
     }
 
     fn id(self) -> String {
-        format!("urn:tristack:{}:1", self.as_str())
+        let version = match self {
+            Self::Task => TASK_SCHEMA,
+            _ => 1,
+        };
+        format!("urn:tristack:{}:{version}", self.as_str())
     }
 }
 

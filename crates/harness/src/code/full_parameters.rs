@@ -7,9 +7,9 @@ use super::parameters::{self, merged};
 use crate::model::{Case, ContactConvention, ContactTest, PAPER_BODIES, PreparationSteps, Pyramid};
 use serde_json::{Map, Value, json};
 
-/// Raised when a parameter is removed or changes its meaning. Parameters and features may join, and lists may grow,
+/// Version of the parameters, raised when a parameter is removed or changes its meaning. Parameters and features may join, and lists may grow,
 /// without another version; 1 had no lists.
-const SCHEMA: u32 = 2;
+pub const SCHEMA: u32 = 2;
 
 /// A named number of a task.
 #[derive(Debug)]

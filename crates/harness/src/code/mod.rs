@@ -43,7 +43,7 @@ pub use described::{Code, folder_argument};
 pub use failure::{Failure, FailureKind};
 pub use feature::Feature;
 pub use format::{ParameterFormat, ResultFormat, pyramid_in_log};
-pub use full_parameters::{Entry, LISTS, PARAMETERS};
+pub use full_parameters::{Entry, LISTS, PARAMETERS, SCHEMA as TASK_SCHEMA};
 pub use guard::{COMMAND as GUARD_COMMAND, end_like, guard, guard_foreign_programs};
 use installation::ExternalCode;
 pub use installation::version_in_answer;

@@ -7,7 +7,8 @@
 
 use super::finding::{Property, VELOCITY_LAG};
 use super::regression::Measured;
-use crate::series::{Column, EXACT_DIGITS, Motion, MotionRow, decimal};
+use super::sliding::MARGIN;
+use crate::series::{Column, ENOUGH_DIGITS, EXACT_DIGITS, Motion, MotionRow, decimal};
 
 /// Number of times that the numbers are moved.
 const REPETITIONS: u64 = 8;
@@ -36,6 +37,13 @@ const TELLING: usize = 20;
 
 /// Digits that a number in single precision shows at least, unless it is a short one.
 const TELLING_DIGITS: u32 = 6;
+
+/// Decimal digits of single precision.
+const SINGLE_DIGITS: u32 = 7;
+
+/// Digits by which a margin is coarser than the numbers, and the largest margin.
+const DIGITS_LOST: f64 = 5.0;
+const LARGEST_MARGIN: f64 = 1e-2;
 
 /// How the numbers of some motions are rounded.
 #[derive(Debug, Clone, PartialEq)]
@@ -67,6 +75,21 @@ impl Rounding {
             }
         }
         own
+    }
+
+    /// The relative distance from Coulomb's limit at which a contact is seen to stick or slide: rounding shifts the speed
+    /// that leads there by up to a hundred thousand units in the last place, and the limits of the two shares of the damping
+    /// are further apart than the largest margin.
+    pub fn margin(&self) -> f64 {
+        let digits = if self.is_single() {
+            SINGLE_DIGITS
+        } else {
+            self.digits
+        };
+        match digits >= ENOUGH_DIGITS {
+            true => MARGIN,
+            false => libm::exp10(DIGITS_LOST - f64::from(digits)).clamp(MARGIN, LARGEST_MARGIN),
+        }
     }
 
     /// Whether any quantity is in single precision.
@@ -325,6 +348,37 @@ mod tests {
         });
         let told: Vec<String> = told.collect();
         assert!(told.is_empty(), "{}", told.join("\n"));
+    }
+
+    #[test]
+    fn what_coulombs_limit_is_compared_with_is_known_from_eight_digits_on() {
+        let exact = conventions().map(|convention| properties(convention, |value| value));
+        let cases = (0..exact.len()).flat_map(|place| (8..=16).map(move |digits| (place, digits)));
+        let cases: Vec<(usize, usize)> = cases.collect();
+        let unknown = cases.into_par_iter().flat_map_iter(|(place, digits)| {
+            let print = |value: f64| {
+                let text = format!("{value:.*e}", digits - 1);
+                text.parse().expect("a number")
+            };
+            let found = properties(conventions()[place], print);
+            let shares = exact[place]
+                .iter()
+                .filter(|own| own.name.ends_with("_coulomb_damping_share"));
+            let unknown = shares.filter_map(|own| {
+                let other = found.iter().find(|other| other.name == own.name)?.measured;
+                let is_known =
+                    (other.value - own.measured.value).abs() < 0.25 && other.uncertainty < 0.25;
+                (!is_known).then(|| {
+                    format!(
+                        "{digits} digits, convention {place}: {} {other:?}",
+                        own.name
+                    )
+                })
+            });
+            unknown.collect::<Vec<_>>()
+        });
+        let unknown: Vec<String> = unknown.collect();
+        assert!(unknown.is_empty(), "{}", unknown.join("\n"));
     }
 
     #[test]

@@ -24,7 +24,8 @@ enum Command {
 /// Compare two passports: what changed, by how many uncertainties, and what it does to three yield forces
 ///
 /// The exit status is 2 if anything differs by more than the uncertainties of both and the tolerance of the probe, and 0
-/// otherwise, so that a code can be held to the passport of its last release.
+/// otherwise, so that a code can be held to the passport of its last release. What is unknown to one of them because its
+/// motions have few digits is no difference, and is named.
 #[derive(Debug, Args)]
 #[command(
     after_help = "Example: tristack probe --codes ./mydem --out now; tristack passport diff released.json now/mydem.json"
@@ -67,6 +68,18 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
             "the forces are those of the arms alone; they do not count that {} changed as well",
             beside_arms.join(", ")
         );
+    }
+    for own in [&before, &after] {
+        if let Some(because) = own
+            .passport
+            .is_coarse_because()
+            .filter(|_| !found.unknown.is_empty())
+        {
+            tell!(
+                "not known where the motions {because}, and no difference: {}",
+                found.unknown.join(", ")
+            );
+        }
     }
     match found.changes.len() {
         0 => tell!("nothing differs by more than the uncertainties"),

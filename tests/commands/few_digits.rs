@@ -2,9 +2,16 @@
 
 use crate::common::replay::{self, Disturbance};
 use crate::common::{Bench, json_rows, recording};
+use rayon::prelude::*;
 use std::process::Output;
 use tristack::code::Code;
-use tristack::model::Power;
+use tristack::dem::run_contact_test;
+use tristack::model::{ContactTest, Power};
+use tristack::output::passport_json;
+use tristack::runs::{Answer, ProbeRecord};
+use tristack::series::{Motion, MotionRow};
+use tristack::study::atlas::difference;
+use tristack::study::convention::{PassportFile, TOLERANCE, passport, probe, read_probe};
 
 /// `series` with every number but the step as `print` gives it.
 fn reprinted(series: &str, print: impl Fn(f64) -> String) -> String {
@@ -85,4 +92,75 @@ fn recorded_runs_are_printed_in_full() {
             assert_eq!(estimates.printed, None, "{code}, {}", run.summary.case);
         }
     }
+}
+
+/// `motion` with every number but the step in `digits` digits.
+fn printed(motion: &Motion, digits: usize) -> Motion {
+    let rows = motion.rows().iter().map(|row| {
+        let mut own = *row;
+        for column in MotionRow::columns(true).iter().skip(1) {
+            let text = format!("{:.*e}", digits - 1, (column.value)(row));
+            (column.set)(&mut own, text.parse().expect("a number"));
+        }
+        own
+    });
+    let rows: Vec<MotionRow> = rows.collect();
+    let steps = rows.len() as u64 - 1;
+    Motion::new(rows, steps).expect("it is whole")
+}
+
+/// The passport of the native code, whose floor has `friction` times what it is asked for, if it prints `digits` digits.
+fn passport_of(digits: usize, friction: f64) -> PassportFile {
+    let code = Code::native();
+    let mut answers = Vec::new();
+    let answered = probe(&code.declaration(), |tests: &[ContactTest]| {
+        let motions = tests.iter().map(|test| {
+            let made = ContactTest {
+                floor_friction: test.floor_friction * friction,
+                ..*test
+            };
+            let motion = printed(&run_contact_test(&made).expect("it is finite"), digits);
+            answers.push(Answer {
+                test: *test,
+                input_hash: String::new(),
+                motion: motion.clone(),
+            });
+            Ok::<_, ()>(motion)
+        });
+        motions.collect()
+    });
+    answered.expect("every test is answered");
+    let provenance = recording(&code).probe.expect("it is there").provenance;
+    let record = ProbeRecord {
+        provenance,
+        answers,
+    };
+    let findings = read_probe(&code, record).expect("every test is answered");
+    let text = passport_json(&passport(&code, &findings), "tristack probe");
+    PassportFile::read(text.as_bytes()).expect("a passport")
+}
+
+#[test]
+fn digits_alone_change_no_passport_and_a_coefficient_does() {
+    let whole = passport_of(17, 1.0);
+    assert_eq!(whole.is_coarse_because(), None);
+    let told = (5..=16).into_par_iter().filter_map(|digits| {
+        let same = passport_of(digits, 1.0);
+        let found = difference(&whole, &same);
+        let friction = same.property("floor_friction").expect("it is measured");
+        let Some((asked, open)) = friction.declared.zip(friction.uncertainty) else {
+            return Some(format!("{digits} digits: no friction"));
+        };
+        // Below the tolerance of the probe nothing changes.
+        let off = (5.0 * open / asked).max(2.0 * TOLERANCE);
+        let other = difference(&whole, &passport_of(digits, 1.0 + off));
+        let names: Vec<&str> = other.changes.iter().map(|own| own.name.as_str()).collect();
+        let is_right = found.is_none() && names.contains(&"floor_friction");
+        (!is_right).then(|| format!("{digits} digits: {found:?}; off by {off:e}: {names:?}"))
+    });
+    let told: Vec<String> = told.collect();
+    assert!(told.is_empty(), "{}", told.join("\n"));
+    // What the digits do not show is named.
+    let found = difference(&whole, &passport_of(5, 1.0));
+    assert!(!found.unknown.is_empty());
 }

@@ -9,6 +9,8 @@ use crate::study::convention::{ArmEffect, PassportFile, PropertyRow, TOLERANCE};
 pub struct Difference {
     /// Rules and properties that differ, in the order of the passports.
     pub changes: Vec<Change>,
+    /// Rules and properties that one of them knows, and the other, whose motions have few digits, does not.
+    pub unknown: Vec<String>,
     /// The exact yield forces of the stacks that both have.
     pub forces: Vec<ForceChange>,
 }
@@ -70,7 +72,8 @@ impl Change {
 }
 
 /// Compares the passports `before` and `after`. Rules in words differ if their words do; numbers differ by more than
-/// their uncertainties and the tolerance between a property and its declaration.
+/// their uncertainties and the tolerance between a property and its declaration. What one of them does not know is no
+/// difference if its motions have few digits.
 pub fn difference(before: &PassportFile, after: &PassportFile) -> Difference {
     let further = after.convention.iter();
     let further = further.filter(|own| before.key(&own.key).is_none());
@@ -103,8 +106,16 @@ pub fn difference(before: &PassportFile, after: &PassportFile) -> Difference {
         })?;
         Some(force(own, other))
     });
+    let is_coarse = [before, after].map(|own| own.is_coarse_because().is_some());
+    let is_unknown = |own: &Change| {
+        let known = [&own.before, &own.after];
+        let mut sides = known.into_iter().zip(is_coarse);
+        sides.any(|(known, is_coarse)| known.is_none() && is_coarse)
+    };
+    let (unknown, changes): (Vec<_>, Vec<_>) = words.chain(numbers).partition(is_unknown);
     Difference {
-        changes: words.chain(numbers).collect(),
+        changes,
+        unknown: unknown.into_iter().map(|own| own.name).collect(),
         forces: forces.collect(),
     }
 }

@@ -42,6 +42,12 @@ pub struct PassportFile {
     pub reservations: Vec<String>,
     /// What its contacts do differently in long time steps.
     pub time_step_effects: Vec<String>,
+    /// Number of significant digits of the motions, where they are too few to contradict a declaration.
+    #[serde(default)]
+    pub few_digits: Option<u32>,
+    /// Quantities of the motions that are numbers of 32 bits.
+    #[serde(default)]
+    pub single_precision: Vec<String>,
     /// The keys of its convention, as measured.
     #[serde(deserialize_with = "rows")]
     pub convention: Vec<KeyRow>,
@@ -131,6 +137,21 @@ impl PassportFile {
             passport.style.clone_from(&passport.code);
         }
         Ok(passport)
+    }
+
+    /// Why it may not know what another passport of the same contacts does; absent for motions in double precision with
+    /// all digits.
+    pub fn is_coarse_because(&self) -> Option<String> {
+        let digits = self
+            .few_digits
+            .map(|digits| format!("have {digits} digits"));
+        let single = || {
+            format!(
+                "are numbers of 32 bits ({})",
+                self.single_precision.join(", ")
+            )
+        };
+        digits.or_else(|| (!self.single_precision.is_empty()).then(single))
     }
 
     /// The row of a `key` of the convention.

@@ -4,6 +4,7 @@ use crate::common::{Bench, code_folder, json_rows};
 use serde::Deserialize;
 use serde_json::Value;
 use std::fs;
+use std::process::Command;
 
 /// Numbers of the copies in schemes.toml.
 const TEXTBOOK_VERLET: usize = 0;
@@ -143,4 +144,28 @@ fn check_names_schemes_in_remarks_alone() {
             assert!(told.contains(word.as_str()), "{}: {items:#?}", scheme.name);
         }
     }
+}
+
+/// The micro-tests with shorter steps are planned too, and those that the first ones share with them are not waited for.
+#[test]
+fn a_scheme_that_converges_is_judged_by_files_alone() {
+    let bench = bench(&scheme(TEXTBOOK_VERLET), &[]);
+    let plan = "plan --codes ./mydem --mu 0.3 --stiffness 100 --out away";
+    // Two rounds at each time step, before and after the runs of the stack.
+    let mut rounds = 0..20;
+    let is_whole = rounds.any(|_| {
+        let output = bench.tristack(plan).output().expect("it runs");
+        let told = String::from_utf8(output.stderr).expect("text");
+        let is_whole = told.contains("to do: 0 runs");
+        if !is_whole {
+            let mut started = Command::new("sh");
+            started.arg("start.txt").current_dir(bench.path("away"));
+            started.output().expect("it runs");
+        }
+        is_whole
+    });
+    assert!(is_whole);
+    let (status, judged, messages) = rows(&bench, "judge away --format json");
+    assert_eq!((status, judged.len()), (0, 1), "{messages}");
+    assert_eq!(judged[0]["verdict"], "agrees", "{messages}");
 }

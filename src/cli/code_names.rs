@@ -119,7 +119,8 @@ fn folder_with_comma(text: &str) -> Option<String> {
 /// Returns the code that `text` names, in the form that [`CodeParser`] reads; `None` if no code has this name.
 pub(super) fn code_named(text: &str) -> Option<Result<Code, ManifestError>> {
     let known = Code::named(text).map(Ok);
-    known.or_else(|| match text.contains('/') {
+    let is_path = text.contains('/') || matches!(text, "." | "..");
+    known.or_else(|| match is_path {
         true => Some(code_in_folder(text)),
         false => of_user(text),
     })

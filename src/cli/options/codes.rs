@@ -36,9 +36,10 @@ impl CodeOptions {
             key: "--codes".to_owned(),
             value: other.to_string(),
             accepted: format!(
-                "codes of the same power as --law, among them {}: the {} of {other}",
+                "codes of the same power as --law, among them {}: {other} has the {}, and is accepted with --law {}",
                 names.join(", "),
-                other.law()
+                other.law(),
+                other.law().power.value()
             ),
         })
     }

@@ -126,7 +126,7 @@ parameters! {
     "floor_damping_tangential", DAMPING, EVERY where NotLinear, "damping_tangential of the floor";
     "youngs_modulus", "k_n/r", EVERY where Material, "Young's modulus of equal spheres for which Hertz's force between two of them is normal_stiffness overlap^1.5";
     "poisson_ratio", "1", EVERY where Material, "their Poisson's ratio, with which Mindlin's stiffness between two of them is tangential_stiffness overlap^0.5";
-    "restitution", "1", EVERY, "restitution that the damping of both springs gives";
+    "restitution", "1", EVERY, "restitution of one body at a wall by the damping of both springs; that of two bodies is smaller, since these have half the mass and the same damping";
     "damping_normal", DAMPING, EVERY, "force of the dashpot beside the normal spring, over the speed of approach";
     "damping_tangential", DAMPING, EVERY, "force of the dashpot beside the tangential spring, over the speed of sliding";
     "floor_friction", "1", EVERY, "friction coefficient of body and floor; the other walls have none";

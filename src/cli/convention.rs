@@ -17,7 +17,23 @@ pub(super) fn settle(
     if let Some(declared) = declared.collect() {
         return Ok(declared);
     }
-    let settled = settle_with(codes, &options.settings()?, &Reporter::new());
+    settle_unless_interrupted(codes, false, options)
+}
+
+/// Does the same after a probe of every code, so that the precision of their numbers is known.
+pub(super) fn settle_after_probes(
+    codes: &[SelectedCode],
+    options: &RunOptions,
+) -> Result<Vec<SettledCode>, CliError> {
+    settle_unless_interrupted(codes, true, options)
+}
+
+fn settle_unless_interrupted(
+    codes: &[SelectedCode],
+    probes_all: bool,
+    options: &RunOptions,
+) -> Result<Vec<SettledCode>, CliError> {
+    let settled = settle_with(codes, probes_all, &options.settings()?, &Reporter::new());
     match INTERRUPT.requested() {
         true => Err(CliError::Interrupted),
         false => Ok(settled),
@@ -27,10 +43,11 @@ pub(super) fn settle(
 /// Does the same with these settings.
 pub(super) fn settle_with(
     codes: &[SelectedCode],
+    probes_all: bool,
     settings: &Settings,
     progress: &dyn Progress,
 ) -> Vec<SettledCode> {
-    let settled = convention::settle(codes, settings, progress).into_iter();
+    let settled = convention::settle(codes, probes_all, settings, progress).into_iter();
     let told = settled.map(|(code, probed)| {
         match probed {
             Some(Ok(probe)) if probe.no_contact => tell!("{}: {NO_CONTACT}", code.name()),

@@ -1,11 +1,11 @@
 //! `tristack crosscheck`.
 
-use super::convention::settle;
+use super::convention::{settle, settle_after_probes};
 use super::explain::{RowName, explain, row_name};
 use super::findings::exchange_all;
 use super::interrupt::interrupted_after;
 use super::options::{
-    CodeOptions, Format, RowOptions, RunOptions, StackOptions, check_compress, find_all,
+    CodeOptions, Format, RowOptions, RunOptions, StackOptions, check_compress, find_all, number,
     options_of, power, selected_codes, tell_stand_ins,
 };
 use super::out::Out;
@@ -19,8 +19,9 @@ use crate::output::{
 };
 use crate::runs::{Finder, SelectedCode};
 use crate::study::yield_force::{Judgement, Measurement};
-use crate::study::{Campaign, Verdict};
+use crate::study::{Campaign, MAX_TOLERANCE, Verdict};
 use clap::Args;
+use std::collections::BTreeSet;
 use std::path::PathBuf;
 
 /// Compare the yield forces of all codes with the exact limit (the main command)
@@ -61,6 +62,11 @@ pub(super) struct Arguments {
     /// run without shortcuts measures what this changes
     #[arg(long)]
     shortcuts: bool,
+    /// Accept yield forces that are known to this much of the load on the floor, F + 3 for cylinders, instead of 1e-5: codes
+    /// in single precision, or that print few digits, are judged to what they resolve. Walls of codes with positions in single
+    /// precision move as fast as these need
+    #[arg(long, value_name = "SHARE", value_parser = resolution)]
+    resolution: Option<f64>,
     #[command(flatten)]
     rows: RowOptions,
     #[command(flatten)]
@@ -72,7 +78,7 @@ pub(super) struct Arguments {
 
 /// Returns the options that conflict with the published numbers.
 fn not_of_published() -> Vec<clap::Id> {
-    let own = ["law", "explain", "shortcuts"].map(clap::Id::from);
+    let own = ["law", "explain", "shortcuts", "resolution"].map(clap::Id::from);
     let others = options_of::<StackOptions>().into_iter();
     let others = others.chain(options_of::<RowOptions>());
     let others = others.chain(["mu", "stiffness"].map(clap::Id::from));
@@ -89,7 +95,7 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
             row,
             &arguments.stacks,
             arguments.law,
-            arguments.shortcuts,
+            (arguments.shortcuts, arguments.resolution),
             &arguments.run,
             (arguments.format, command),
         );
@@ -103,13 +109,15 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
     };
     let out = Out::claim(arguments.out.as_deref(), &layout())?;
     let settings = arguments.run.settings()?;
-    let settled = settle(&codes, &arguments.run)?;
+    let settled = match arguments.resolution {
+        Some(_) => settle_after_probes(&codes, &arguments.run)?,
+        None => settle(&codes, &arguments.run)?,
+    };
     let planned = || arguments.stacks.measurements(&settled, arguments.law);
-    let mut measurements = during("planning", planned)?;
-    if arguments.shortcuts {
-        let shortened = measurements.into_iter().map(Measurement::shortened);
-        measurements = shortened.collect();
-    }
+    let measurements = during("planning", planned)?.into_iter();
+    let measurements = measurements
+        .map(|own| with_options(own, arguments.shortcuts, arguments.resolution))
+        .collect::<Vec<_>>();
     let planned = measurements.len();
     let judgements = Campaign::new(&codes, &settings, &Reporter::new()).carry_out(measurements);
     let rows = &arguments.rows;
@@ -135,6 +143,35 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
             .collect()
     });
     Ok(found.max(written))
+}
+
+/// Returns the measurement with the shortcuts and the resolution that are asked for.
+pub(super) fn with_options(
+    measurement: Measurement,
+    shortcuts: bool,
+    resolution: Option<f64>,
+) -> Measurement {
+    let measurement = match shortcuts {
+        true => measurement.shortened(),
+        false => measurement,
+    };
+    match resolution {
+        Some(resolution) => measurement.accepting(resolution),
+        None => measurement,
+    }
+}
+
+/// The largest resolution: a yield force that is known to a tenth of the load says nothing.
+const COARSEST: f64 = 0.1;
+
+/// Reads a resolution.
+fn resolution(text: &str) -> Result<f64, String> {
+    let share = number(text)?;
+    let accepted = MAX_TOLERANCE..=COARSEST;
+    match accepted.contains(&share) {
+        true => Ok(share),
+        false => Err(format!("accepted is {MAX_TOLERANCE:e} to {COARSEST}")),
+    }
 }
 
 /// Returns the files that [`publish`] writes.
@@ -187,7 +224,13 @@ pub(super) fn conclude(
     planned: usize,
     codes: &[SelectedCode],
 ) -> ExitStatus {
+    let mut told = BTreeSet::new();
     for judgement in judgements {
+        // Remarks on rows that agree are often the same on all rows of a code.
+        let is_known = !told.insert((&judgement.code, judgement.notes()));
+        if is_known && judgement.verdict() == Verdict::Agrees {
+            continue;
+        }
         let (code, mu) = (&judgement.code, friction(judgement.mu()));
         let place = format!("{code} mu={mu} stiffness={}", judgement.stiffness());
         tell_grounds(&judgement.grounds, &place);

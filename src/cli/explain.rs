@@ -1,7 +1,8 @@
 //! `tristack crosscheck --explain ROW`.
 
 use super::code_names::{code_named, unknown};
-use super::convention::settle;
+use super::convention::{settle, settle_after_probes};
+use super::crosscheck::with_options;
 use super::options::{Format, Friction, RunOptions, Stiffness, as_flag, find_all, single};
 use super::progress::Reporter;
 use super::stack_set::StackSet;
@@ -50,7 +51,7 @@ pub(super) fn explain(
     row: &RowName,
     stacks: &StackSet,
     power: Power,
-    shortcuts: bool,
+    (shortcuts, resolution): (bool, Option<f64>),
     options: &RunOptions,
     (format, command): (Format, &str),
 ) -> Result<ExitStatus, CliError> {
@@ -63,12 +64,12 @@ pub(super) fn explain(
     let accepted = row.code.check_stiffness_ratio(stack.stiffness_ratio);
     accepted.map_err(as_flag)?;
     let codes = find_all(std::slice::from_ref(&row.code));
-    let settled = settle(&codes, options)?;
+    let settled = match resolution {
+        Some(_) => settle_after_probes(&codes, options)?,
+        None => settle(&codes, options)?,
+    };
     let measurement = stacks.profile()?.measurement(&settled[0], &stack, power);
-    let measurements = vec![match shortcuts {
-        true => measurement.shortened(),
-        false => measurement,
-    }];
+    let measurements = vec![with_options(measurement, shortcuts, resolution)];
     let settings = options.settings()?;
     let judgements = Campaign::new(&codes, &settings, &Reporter::new()).carry_out(measurements);
     let Some(judgement) = judgements.first() else {

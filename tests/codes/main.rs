@@ -11,6 +11,7 @@ mod lies;
 mod live;
 mod mutations;
 mod probe_laws;
+mod resolution;
 mod schemes;
 mod twins;
 mod variants;

@@ -234,6 +234,8 @@ fn beyond_onset(judgements: &[Judgement]) -> &'static str {
 /// Formats a page with the rows, their meaning, and their notes.
 pub fn crosscheck_markdown(judgements: &[Judgement], command: &str) -> String {
     let command = markdown_code(command);
+    let resolutions = judgements.iter().map(|row| row.study.resolution);
+    let largest = resolutions.fold(MAX_TOLERANCE, f64::max);
     let mut page = format!(
         "# Crosscheck of {}\n\n\
          Made by tristack {} with {command}.\n\n\
@@ -241,7 +243,7 @@ pub fn crosscheck_markdown(judgements: &[Judgement], command: &str) -> String {
          same contact convention. The uncertainty ± is in m g like F; error, tolerance and model form are relative to F + n + 1, \
          the load on the floor under n bodies and the one on top. Where the force rises beyond the onset of slip, F is that of the \
          peak, and error, tolerance and verdict are those of the onset. The tolerance \
-         is the uncertainty, but at least {MIN_TOLERANCE:e} and at most {MAX_TOLERANCE:e}. Model form is the distance of the \
+         is the uncertainty, but at least {MIN_TOLERANCE:e} and at most {largest:e}. Model form is the distance of the \
          limit under the code's convention from the one under the paper's.\n\n",
         title(judgements),
         env!("CARGO_PKG_VERSION")

@@ -7,10 +7,10 @@ use super::table::Columns;
 use crate::model::exact;
 use crate::runs::RunSummary;
 use crate::series::MechanicalLaw;
+use crate::study::MIN_TOLERANCE;
 use crate::study::yield_force::{
     Budget, ConvergenceOrder, Evidence, Extrapolation, Judgement, Method, TwinForce,
 };
-use crate::study::{MAX_TOLERANCE, MIN_TOLERANCE};
 
 /// Formats the steps that lead to the verdict of `row`, for a terminal. `twin` is the same force from runs with more
 /// digits; `coverage` says what the identity of an installed code covers.
@@ -213,9 +213,10 @@ fn conclusion(row: &Judgement) -> String {
     let evidence = Evidence::of(row);
     let mut text = format!(
         "6. Comparison error E = S - D: {} of F + n + 1; tolerance {}\n   (the uncertainty, but at least {MIN_TOLERANCE:e} \
-         and at most {MAX_TOLERANCE:e}): {}\n",
+         and at most {:e}): {}\n",
         optional(row.error(), relative),
         optional(row.tolerance(), |tolerance| format!("{tolerance:.1e}")),
+        row.study.resolution,
         row.grounds.in_words()
     );
     for note in &row.notes() {

@@ -1,12 +1,13 @@
 //! Velocities and accelerations from equally spaced rows.
 
+use super::digits::Rounding;
 use super::sample::Sample;
 
 /// Rounding of the largest coordinate of the stack, 1 + √3.
 pub(super) const COORDINATE: f64 = 3.0 * f64::EPSILON;
 
 /// Time for which the stack rings, in √(m/k_n); with a restitution of 0.7 it is about ten.
-const RINGING_TIME: f64 = 10.0;
+pub(super) const RINGING_TIME: f64 = 10.0;
 
 /// Time derivatives of a coordinate.
 #[derive(Debug, Clone, Copy, Default)]
@@ -22,27 +23,26 @@ pub(super) struct Rates {
 #[derive(Debug, Clone, Copy)]
 pub(super) struct FiveRows<'a> {
     pub(super) rows: &'a [Sample; 5],
-    /// Rounding error of a coordinate.
-    unit: f64,
+    rounding: Rounding,
 }
 
 impl<'a> FiveRows<'a> {
-    /// The rows around `row`, two on each side; coordinates are rounded by `unit`. `None` if there are not enough
+    /// The rows around `row`, two on each side, with this `rounding`. `None` if there are not enough
     /// rows, or if they are not equally spaced. The first row of a series is never used, because forces of some codes
     /// belong to another moment there.
-    pub(super) fn around(samples: &'a [Sample], row: usize, unit: f64) -> Option<Self> {
+    pub(super) fn around(samples: &'a [Sample], row: usize, rounding: Rounding) -> Option<Self> {
         let first = row.checked_sub(2).filter(|&first| first > 0)?;
         let rows: &[Sample; 5] = samples.get(first..first + 5)?.try_into().ok()?;
         let mut steps = rows.windows(2).map(|pair| pair[1].step - pair[0].step);
         let every = steps.next()?;
         steps
             .all(|step| step == every)
-            .then_some(Self { rows, unit })
+            .then_some(Self { rows, rounding })
     }
 
     /// Rounding error of a coordinate.
     pub(super) fn unit(self) -> f64 {
-        self.unit
+        self.rounding.coordinate
     }
 
     /// Time between two successive rows.
@@ -53,8 +53,10 @@ impl<'a> FiveRows<'a> {
     /// Noise of a coordinate: it is rounded in every step, and the stack remembers each rounding error while it rings.
     pub(super) fn rounding(self) -> f64 {
         let time_step = self.rows[3].time / self.rows[3].step as f64;
-        self.unit
-            .max(COORDINATE * (RINGING_TIME / time_step).max(1.0).sqrt())
+        let Rounding {
+            coordinate, step, ..
+        } = self.rounding;
+        coordinate.max(step * (RINGING_TIME / time_step).max(1.0).sqrt())
     }
 
     /// Returns central differences at the middle row.
@@ -90,7 +92,7 @@ mod tests {
     #[test]
     fn a_quartic_has_exact_rates_and_the_error_of_second_order_shows() {
         let rows: Vec<Sample> = (0..9).map(|step| sample_at(step, 0.5)).collect();
-        let five = FiveRows::around(&rows, 4, COORDINATE).unwrap();
+        let five = FiveRows::around(&rows, 4, Rounding::DOUBLE).unwrap();
         let rates = five.rates(|row| row.time.powi(3) - 2.0 * row.time);
         assert!((rates.velocity - (3.0 * 4.0 - 2.0)).abs() < 1e-12);
         assert!((rates.acceleration - 12.0).abs() < 1e-12);
@@ -101,10 +103,10 @@ mod tests {
     #[test]
     fn rows_at_other_distances_and_the_first_one_have_no_rates() {
         let mut rows: Vec<Sample> = (0..9).map(|step| sample_at(step, 0.5)).collect();
-        assert!(FiveRows::around(&rows, 2, COORDINATE).is_none());
-        assert!(FiveRows::around(&rows, 3, COORDINATE).is_some());
-        assert!(FiveRows::around(&rows, 7, COORDINATE).is_none());
+        assert!(FiveRows::around(&rows, 2, Rounding::DOUBLE).is_none());
+        assert!(FiveRows::around(&rows, 3, Rounding::DOUBLE).is_some());
+        assert!(FiveRows::around(&rows, 7, Rounding::DOUBLE).is_none());
         rows[8].step = 9;
-        assert!(FiveRows::around(&rows, 6, COORDINATE).is_none());
+        assert!(FiveRows::around(&rows, 6, Rounding::DOUBLE).is_none());
     }
 }

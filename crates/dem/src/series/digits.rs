@@ -9,6 +9,20 @@ use serde::{Deserialize, Serialize};
 pub const ENOUGH_DIGITS: u32 = 13;
 /// Number of digits that reproduce any double exactly.
 pub const EXACT_DIGITS: u32 = 17;
+/// Decimal digits of single precision.
+pub const SINGLE_DIGITS: u32 = 7;
+/// The distance of neighbouring numbers of 32 bits between 2 and 4, as the largest coordinates are, in r.
+pub(super) const SINGLE_COORDINATE: f64 = 2.0 * f32::EPSILON as f64;
+/// Shortest step of the wall, in r, at which positions in single precision round at random: a body that moves by a tenth of
+/// it still moves by some twenty units in the last place.
+pub const STEP_IN_SINGLE_PRECISION: f64 = 256.0 * SINGLE_COORDINATE;
+/// Fewest numbers of a column with more digits than [`TELLING_DIGITS`] that show that it is in single precision.
+pub const TELLING: usize = 20;
+/// Digits that a number in single precision shows at least, unless it is a short one.
+pub const TELLING_DIGITS: u32 = 6;
+/// Roundings of a balance of forces in single precision, in those of the forces that are reported: the ones between cylinders,
+/// which are not, are rounded too.
+const ROUNDED_FORCES: f64 = 3.0;
 /// Rows after the peak from which the friction is read.
 const ROWS_AFTER_PEAK: usize = 4;
 /// The force columns, on which the yield force depends.
@@ -25,21 +39,43 @@ fn coordinates() -> impl Iterator<Item = &'static Column<Sample>> {
 /// Largest rounding of the numbers of a series, in its own units.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Rounding {
-    /// Rounding error of a coordinate.
+    /// Rounding error of a coordinate in the rows.
     pub(super) coordinate: f64,
+    /// Rounding error of a coordinate in every step.
+    pub(super) step: f64,
     /// Rounding error of a force.
     pub(super) force: f64,
 }
 
 impl Rounding {
-    /// Infers the rounding errors in `samples`: those of double precision, or those of printing.
+    /// That of double precision.
+    pub(super) const DOUBLE: Self = Self {
+        coordinate: COORDINATE,
+        step: COORDINATE,
+        force: 0.0,
+    };
+
+    /// Whether coordinates are numbers of 32 bits.
+    pub(super) fn has_single_positions(&self) -> bool {
+        self.step > Self::DOUBLE.step
+    }
+
+    /// Infers the rounding errors in `samples`: those of double or single precision, or those of printing.
     pub(super) fn read(samples: &[Sample]) -> Self {
         let half_unit = |column: &'static Column<Sample>| {
             let printed = precision(samples.iter().map(column.value));
             printed.map_or(0.0, |printed| printed.half_unit)
         };
+        let mut lengths = coordinates().filter(|column| column.unit == LENGTH);
+        let is_single = lengths.any(|column| is_single(samples.iter().map(column.value)));
         Self {
-            coordinate: coordinates().map(half_unit).fold(COORDINATE, f64::max),
+            coordinate: coordinates()
+                .map(half_unit)
+                .fold(Self::DOUBLE.coordinate, f64::max),
+            step: match is_single {
+                true => SINGLE_COORDINATE,
+                false => Self::DOUBLE.step,
+            },
             force: forces().map(half_unit).fold(0.0, f64::max),
         }
     }
@@ -55,6 +91,9 @@ pub struct PrintedDigits {
     pub finest: u32,
     /// Half a unit in the last place of these numbers, in m g; the largest over all columns that matter.
     pub half_unit: f64,
+    /// Whether a column has numbers of 32 bits, in whatever digits they are printed.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub single: bool,
 }
 
 impl PrintedDigits {
@@ -62,6 +101,7 @@ impl PrintedDigits {
         digits: EXACT_DIGITS,
         finest: EXACT_DIGITS,
         half_unit: 0.0,
+        single: false,
     };
 
     /// Infers the digits of `samples`, with forces in units of k_n r, which is `stiffness` m g; `None` if every column
@@ -80,6 +120,7 @@ impl PrintedDigits {
             digits: left.digits.min(right.digits),
             finest: left.finest.max(right.finest),
             half_unit: left.half_unit.max(right.half_unit),
+            single: left.single || right.single,
         })?;
         (coarsest.digits < EXACT_DIGITS).then_some(Self {
             half_unit: coarsest.half_unit * stiffness,
@@ -100,8 +141,36 @@ pub fn most_digits(values: impl Iterator<Item = f64>) -> u32 {
     most
 }
 
+/// Whether a number is one of single precision.
+pub fn is_of_32_bits(value: f64) -> bool {
+    f64::from(value as f32) == value
+}
+
+/// Whether a column holds numbers of 32 bits. One of them, the first, may be given by the task.
+fn is_single(values: impl Iterator<Item = f64>) -> bool {
+    let mut telling = 0;
+    for value in values.skip(1).filter(|value| value.is_finite()) {
+        if !is_of_32_bits(value) {
+            return false;
+        }
+        // A short number is the same with 32 bits.
+        telling += usize::from(telling < TELLING && decimal(value).0 > TELLING_DIGITS);
+    }
+    telling == TELLING
+}
+
 /// Returns the precision of a column; `None` if it holds nothing but zeros and NaN.
-fn precision(values: impl Iterator<Item = f64>) -> Option<PrintedDigits> {
+fn precision(values: impl Iterator<Item = f64> + Clone) -> Option<PrintedDigits> {
+    if is_single(values.clone()) {
+        let finite = values.filter(|value| value.is_finite());
+        let largest = finite.map(f64::abs).fold(0.0, f64::max);
+        return Some(PrintedDigits {
+            digits: SINGLE_DIGITS,
+            finest: SINGLE_DIGITS,
+            half_unit: ROUNDED_FORCES * 0.5 * f64::from(f32::EPSILON) * largest,
+            single: true,
+        });
+    }
     let (mut digits, mut highest) = (0, i32::MIN);
     // A value that is not reported is NaN.
     for value in values.filter(|value| *value != 0.0 && !value.is_nan()) {
@@ -117,6 +186,7 @@ fn precision(values: impl Iterator<Item = f64>) -> Option<PrintedDigits> {
         digits,
         finest: digits,
         half_unit: 0.5 * libm::exp10(f64::from(last_place)),
+        single: false,
     })
 }
 
@@ -164,6 +234,22 @@ mod tests {
             assert_eq!(printed.digits, 6);
             assert!((printed.half_unit / 0.5e-5 - 1.0).abs() < 1e-12);
         }
+    }
+
+    #[test]
+    fn numbers_of_32_bits_are_known_from_all_their_digits() {
+        let values = (1..400).map(|row| f64::from(row) * 0.001 * std::f64::consts::E);
+        let single = values.clone().map(|value| f64::from(value as f32));
+        let printed = precision(single.clone()).expect("numbers");
+        assert!(printed.single && printed.digits == SINGLE_DIGITS);
+        assert!(
+            (printed.half_unit / (1.085 * ROUNDED_FORCES * 0.5 * f64::from(f32::EPSILON)) - 1.0)
+                .abs()
+                < 1e-3
+        );
+        // Short numbers, and columns of both kinds, are none.
+        assert!(!is_single((1..400).map(|row| f64::from(row) / 1024.0)));
+        assert!(!is_single(single.chain(values)));
     }
 
     #[test]

@@ -5,7 +5,7 @@
 //! the speed of the wall can cause. The bounds follow from the contact law, the time step and the rounding of
 //! positions (docs/theory.md, section 8.6).
 
-use super::differences::{COORDINATE, FiveRows, Rates};
+use super::differences::{FiveRows, RINGING_TIME, Rates};
 use super::digits::Rounding;
 use super::estimate::sticking_rows;
 use super::oscillator::Oscillator;
@@ -292,7 +292,7 @@ impl<'a> Stack<'a> {
     /// Returns both sides of every law that can be checked in `row` of `samples`.
     fn sides(&self, samples: &[Sample], row: usize) -> Vec<(MechanicalLaw, Sides)> {
         let sample = &samples[row];
-        let five = FiveRows::around(samples, row, self.rounding.coordinate)
+        let five = FiveRows::around(samples, row, self.rounding)
             .filter(|five| self.is_smooth && self.has_its_speed(five));
         let reported = self.reported;
         let heights = five.filter(|_| reported.heights());
@@ -325,7 +325,15 @@ impl<'a> Stack<'a> {
 
     /// Upper bound of the rounding error of a position that is advanced in every step.
     fn rounded(&self, sample: &Sample) -> f64 {
-        (self.schedule.preparation.total() + sample.step) as f64 * COORDINATE
+        (self.schedule.preparation.total() + sample.step) as f64 * self.rounding.step
+    }
+
+    /// Largest force on a body whose position is rounded to 32 bits in every step: each rounding rings like a touch. In double
+    /// precision it is far below every other bound.
+    fn noise_of_single_precision(&self) -> f64 {
+        let ringing = (RINGING_TIME / self.case.protocol.time_step).max(1.0);
+        let position = (self.rounding.step - Rounding::DOUBLE.step) * ringing.sqrt();
+        position * self.frequency * self.frequency
     }
 
     /// Error of a force and of the overlap behind it from printed digits.
@@ -439,12 +447,13 @@ impl<'a> Stack<'a> {
             }
             (None, None) => self.of_sudden_touch(),
         };
-        let rounded = 2.0 * COORDINATE * self.wall_law.normal_stiffness.max(1.0);
+        let rounded = 2.0 * self.rounding.step * self.wall_law.normal_stiffness.max(1.0);
+        let noise = bodies as f64 * self.noise_of_single_precision();
         Sides {
             step: sample.step,
             found: sample.borne(&self.case.stack),
             expected: self.case.stack.floor_force(sample.wall_force),
-            bound: inertia + own_weight * (rounded + self.rounding.force),
+            bound: inertia + noise + own_weight * (rounded + self.rounding.force),
         }
     }
 
@@ -529,7 +538,7 @@ impl<'a> Stack<'a> {
             step: sample.step,
             found: force,
             expected,
-            bound: error + stiffness * (4.0 * COORDINATE + self.printed()),
+            bound: error + stiffness * (4.0 * self.rounding.step + self.printed()),
         }
     }
 
@@ -556,7 +565,7 @@ impl<'a> Stack<'a> {
         let known_to = self.damping_error(pair.damping, &[x2, y1, y2], five)
             + second_difference
             + pair.acceleration_error
-            + 8.0 * COORDINATE
+            + 8.0 * self.rounding.step
             + 4.0 * self.printed();
         let bottom = self.bottom_force(sample, five);
         let bodies = f64::from(self.case.stack.bodies);

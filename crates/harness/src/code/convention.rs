@@ -165,6 +165,8 @@ pub struct Settled {
     /// Steps by which the forces that move the bodies were found to lag behind the positions; 0 for a code that was not
     /// probed.
     pub force_lag: f64,
+    /// Whether positions were found to be numbers of 32 bits.
+    pub has_single_positions: bool,
     /// Uncertainties of the arm coefficients: 0 for those that are declared.
     pub arm_uncertainty: Arms,
     /// Uncertainty of the moment of inertia: 0 if it is declared.
@@ -362,6 +364,7 @@ impl Declaration {
             convention: self.convention,
             velocity_lag: self.velocity_lag,
             force_lag: 0.0,
+            has_single_positions: false,
             arm_uncertainty: Arms::PAPER,
             inertia_uncertainty: 0.0,
             lag_uncertainty: 0.0,

@@ -4,6 +4,7 @@ use super::convention::{
     Finding, Probed, arms_are_measured, contradictions, forces_are_late, in_single_precision,
     is_contradicted, other_program, probe_all, settled_by, step_effects,
 };
+use super::tolerance::MAX_TOLERANCE;
 use super::verdict::{Cause, Ground, Grounds, Verdict};
 use crate::code::{Code, Identity, InstalledCode, SettledCode, Unknown};
 use crate::runs::{
@@ -25,6 +26,11 @@ pub trait Study {
     /// Whether its result depends on `unknown`, a part of the convention of the code that is not known.
     fn depends_on(&self, _unknown: &Unknown) -> bool {
         true
+    }
+
+    /// The largest uncertainty with which its result agrees, relative to the load on the floor.
+    fn resolution(&self) -> f64 {
+        MAX_TOLERANCE
     }
 
     /// The tasks that the study needs to be carried out; those of the judged code come first.
@@ -270,7 +276,8 @@ impl<'a> Campaign<'a> {
                 judged.grounds = evaluation.grounds;
                 // If nothing yields in theory, nothing is run, and there is no judgement to withdraw.
                 if let Some(probed) = probed.filter(|_| !identities.is_empty()) {
-                    judged.grounds.hold_to_probe(probed, &identities);
+                    let accepts = judged.study.resolution() > MAX_TOLERANCE;
+                    judged.grounds.hold_to_probe(probed, &identities, accepts);
                     if probed.is_ok() {
                         judged.hold_to_settled();
                     }
@@ -280,7 +287,7 @@ impl<'a> Campaign<'a> {
                 judged.grounds = missing;
                 // A contradiction that the probe has found counts even if runs are missing.
                 if let Some(probed) = probed.filter(|probed| is_contradicted(probed)) {
-                    judged.grounds.hold_to_probe(probed, &identities);
+                    judged.grounds.hold_to_probe(probed, &identities, false);
                 }
             }
         }
@@ -329,8 +336,9 @@ fn complete<R>(results: Vec<Vec<Result<R, RunError>>>) -> Result<Vec<Vec<R>>, Gr
 
 impl Grounds {
     /// Withdraws a judgement whose reference belongs to a convention that the code does not have, or is not known to
-    /// have, according to `probed`. `identities` are the programs that made the runs.
-    fn hold_to_probe(&mut self, probed: &Probed, identities: &[Identity]) {
+    /// have, according to `probed`. `identities` are the programs that made the runs. Where the user `accepts_coarse` numbers,
+    /// what single precision or few digits leave open of the convention is no obstacle.
+    fn hold_to_probe(&mut self, probed: &Probed, identities: &[Identity], accepts_coarse: bool) {
         if probed.as_ref().is_ok_and(forces_are_late) {
             self.allow_late_forces();
         }
@@ -339,7 +347,9 @@ impl Grounds {
             .into_iter()
             .for_each(|told| self.add(Ground::SinglePrecision(told)));
         let mut contradictions = contradictions(probed);
-        contradictions.extend(other_program(probed, identities.iter()));
+        let other = other_program(probed, identities.iter());
+        let accepts_coarse = accepts_coarse && other.is_none();
+        contradictions.extend(other);
         let Some(first) = contradictions.first() else {
             let findings = probed.iter().flat_map(|probe| &probe.findings);
             let effects = step_effects(findings);
@@ -352,9 +362,14 @@ impl Grounds {
             1 => String::new(),
             count => format!(" (and {} more: tristack probe)", count - 1),
         };
-        self.add(Ground::NotJudged {
-            note: format!("not judged: {first}{further}"),
-            cause: cause(probed),
+        let cause = cause(probed);
+        let is_coarse = matches!(cause, Cause::SinglePrecision | Cause::FewDigits);
+        self.add(match accepts_coarse && is_coarse {
+            true => Ground::Remark(format!("{first}{further}")),
+            false => Ground::NotJudged {
+                note: format!("not judged: {first}{further}"),
+                cause,
+            },
         });
     }
 }

@@ -7,14 +7,14 @@ pub(crate) const ROUNDING: f64 = 0.288_675_134_594_812_9;
 /// limit itself for arbitrary torque arms (crates/theory/tests/theory/golden.rs).
 pub const MIN_TOLERANCE: f64 = 1e-7;
 
-/// Largest tolerance, relative to the load on the floor: agreement between independent codes is worth the name at 1e-5.
-/// An uncertainty above it decides nothing.
+/// Largest tolerance, relative to the load on the floor, unless the user accepts a larger one: agreement between independent
+/// codes is worth the name at 1e-5. An uncertainty above it decides nothing.
 pub const MAX_TOLERANCE: f64 = 1e-5;
 
 /// The tolerance for an uncertainty, both relative to the load on the floor: the uncertainty itself, but at least
-/// [`MIN_TOLERANCE`] and at most [`MAX_TOLERANCE`].
-pub fn tolerance(uncertainty: f64) -> f64 {
-    uncertainty.clamp(MIN_TOLERANCE, MAX_TOLERANCE)
+/// [`MIN_TOLERANCE`] and at most the `largest` that is accepted.
+pub fn tolerance(uncertainty: f64, largest: f64) -> f64 {
+    uncertainty.clamp(MIN_TOLERANCE, largest)
 }
 
 #[cfg(test)]
@@ -25,7 +25,8 @@ mod tests {
     /// The verdict on an error with its uncertainty, both relative to the load on the floor.
     fn judge(error: f64, uncertainty: f64) -> Verdict {
         let mut grounds = Grounds::new();
-        grounds.compare(error, uncertainty, tolerance(uncertainty), None);
+        let allowed = tolerance(uncertainty, MAX_TOLERANCE);
+        grounds.compare(error, uncertainty, allowed, None);
         grounds.verdict()
     }
 

@@ -136,6 +136,10 @@ pub fn read_probe(code: &Code, record: ProbeRecord) -> Probed {
     let motions = record.answers.iter().map(|answer| &answer.motion);
     // The longest numbers count: some motions are so simple that their numbers are short.
     let rounding = Rounding::of(&motions.collect::<Vec<_>>());
+    let settled = Settled {
+        has_single_positions: rounding.has_single_positions(),
+        ..settled
+    };
     let few_digits = Some(rounding.digits).filter(|digits| *digits < ENOUGH_DIGITS);
     let no_contact = acts_nowhere(&record.answers);
     let properties = properties.into_iter();

@@ -8,7 +8,8 @@
 use super::finding::{Property, VELOCITY_LAG};
 use super::regression::Measured;
 use super::sliding::MARGIN;
-use crate::series::{Column, ENOUGH_DIGITS, EXACT_DIGITS, Motion, MotionRow, decimal};
+use crate::series::{Column, ENOUGH_DIGITS, EXACT_DIGITS, Motion, MotionRow, SINGLE_DIGITS};
+use crate::series::{TELLING, TELLING_DIGITS, decimal, is_of_32_bits};
 
 /// Number of times that the numbers are moved.
 const REPETITIONS: u64 = 8;
@@ -31,15 +32,6 @@ const SYSTEMATIC: f64 = 0.5;
 
 /// Largest uncertainty of the moment to which velocities belong, in steps, at which laws can be read from them.
 const LARGEST_LAG: f64 = 0.1;
-
-/// Fewest numbers with more digits than [`TELLING_DIGITS`] that show that a quantity is kept in single precision.
-const TELLING: usize = 20;
-
-/// Digits that a number in single precision shows at least, unless it is a short one.
-const TELLING_DIGITS: u32 = 6;
-
-/// Decimal digits of single precision.
-const SINGLE_DIGITS: u32 = 7;
 
 /// Digits by which a margin is coarser than the numbers, and the largest margin.
 const DIGITS_LOST: f64 = 5.0;
@@ -90,6 +82,11 @@ impl Rounding {
             true => MARGIN,
             false => libm::exp10(DIGITS_LOST - f64::from(digits)).clamp(MARGIN, LARGEST_MARGIN),
         }
+    }
+
+    /// Whether positions are in single precision.
+    pub fn has_single_positions(&self) -> bool {
+        self.single.contains(&QUANTITIES[0].0)
     }
 
     /// Whether any quantity is in single precision.
@@ -173,7 +170,7 @@ impl Rounding {
                 libm::exp10(f64::from(place))
             }
         };
-        let single = match self.single.contains(&unit) && survives(value) {
+        let single = match self.single.contains(&unit) && is_of_32_bits(value) {
             true => value.abs() * f64::from(f32::EPSILON),
             false => 0.0,
         };
@@ -247,7 +244,7 @@ fn is_single(motions: &[&Motion], unit: &str) -> bool {
     for row in motions.iter().flat_map(|motion| motion.rows()) {
         for column in columns().filter(|column| column.unit == unit) {
             let value = (column.value)(row);
-            match survives(value) {
+            match is_of_32_bits(value) {
                 // A short number survives in any case.
                 true => single += usize::from(value != 0.0 && decimal(value).0 > TELLING_DIGITS),
                 false => double += 1,
@@ -255,11 +252,6 @@ fn is_single(motions: &[&Motion], unit: &str) -> bool {
         }
     }
     single >= TELLING && single >= double
-}
-
-/// Whether a number is one of single precision.
-fn survives(value: f64) -> bool {
-    f64::from(value as f32) == value
 }
 
 #[cfg(test)]

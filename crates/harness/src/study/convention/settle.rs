@@ -10,22 +10,25 @@ use std::path::Path;
 pub type Settling = (SettledCode, Option<Probed>);
 
 /// Settles the conventions of `codes`, in their order. What a manifest leaves out is measured by a probe, from the
-/// store, live, or recorded.
+/// store, live, or recorded. `probes_all` codes in any case, to know the precision of their numbers.
 pub fn settle(
     codes: &[SelectedCode],
+    probes_all: bool,
     settings: &Settings,
     progress: &dyn Progress,
 ) -> Vec<Settling> {
     let settled = codes.iter().map(|selected| {
         let name = &selected.name;
-        if let Some(declared) = name.as_declared() {
+        let declared = name.as_declared();
+        if let Some(declared) = declared.clone().filter(|_| !probes_all) {
             return (declared, None);
         }
         let probed = probe_all(std::slice::from_ref(selected), settings, progress);
         let probed = probed.into_iter().next();
-        let settled = match &probed {
-            Some(probed) => settled_by(name, probed),
-            None => name.unmeasured("it has not been measured"),
+        let settled = match (&probed, declared) {
+            (None | Some(Err(_)), Some(declared)) => declared,
+            (Some(probed), _) => settled_by(name, probed),
+            (None, None) => name.unmeasured("it has not been measured"),
         };
         (settled, probed)
     });

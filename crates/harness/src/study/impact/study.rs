@@ -6,7 +6,9 @@ use crate::code::{Code, ConventionKey, SettledCode, Unknown};
 use crate::model::ImpactTarget;
 use crate::runs::{ImpactReading, ImpactRun, Workload};
 use crate::series::Rebound;
-use crate::study::{Evaluation, Ground, Grounds, Judged, ROUNDING, Study, tolerance};
+use crate::study::{
+    Evaluation, Ground, Grounds, Judged, MAX_TOLERANCE, ROUNDING, Study, tolerance,
+};
 use crate::theory::{damping_exponent, sliding_change};
 
 /// The largest coordinate of a body that touches, in r.
@@ -62,7 +64,7 @@ impl ImpactJudgement {
 
     /// Returns the largest relative error that agrees.
     pub fn tolerance(&self) -> Option<f64> {
-        Some(tolerance(self.judged()?.budget.total()))
+        Some(tolerance(self.judged()?.budget.total(), MAX_TOLERANCE))
     }
 }
 
@@ -132,7 +134,7 @@ impl Study for ImpactStudy {
                     finding.measured,
                     self.quantity.unit()
                 );
-                let allowed = tolerance(uncertainty);
+                let allowed = tolerance(uncertainty, MAX_TOLERANCE);
                 grounds.compare(finding.error, uncertainty, allowed, Some(note));
             }
             None => grounds.add(Ground::Undecidable(

@@ -171,5 +171,6 @@ fn estimates(observation: &Observation) -> YieldEstimates {
         departure: None,
         pair_friction: None,
         printed: None,
+        position_drift: None,
     }
 }

@@ -182,7 +182,9 @@ pub(crate) fn extrapolate_runs(
         let terms = terms.map(|(run, (weight, estimate))| weight.abs() * error(estimate, run));
         terms.sum()
     };
-    let rounded = |estimate: &Estimate, run: usize| round_off(estimate, steps[run], stiffness);
+    let rounded = |estimate: &Estimate, run: usize| {
+        round_off(&estimates[run], estimate, steps[run], stiffness)
+    };
     let printed = |estimate: &Estimate, run: usize| printing(&estimates[run], estimate, stiffness);
     let time_step = match (roles.coarse_and_fast, roles.coarse_time_step) {
         (Some(fast), Some(middle)) => Some(change_of_line(&all, [fast, middle])?),
@@ -246,7 +248,7 @@ pub(crate) fn at_one_speed(
             time_step: change(roles.coarse_time_step)?,
             preparation: change(roles.short_ramp)?,
             sampling: estimate.sampling,
-            round_off: round_off(&estimate, steps, stiffness),
+            round_off: round_off(&estimates[0], &estimate, steps, stiffness),
             print_precision: printing(&estimates[0], &estimate, stiffness),
             shortcuts: 0.0,
             convention: None,
@@ -255,10 +257,11 @@ pub(crate) fn at_one_speed(
     })
 }
 
-/// Rounding of positions over this many `steps`, a random walk, as the estimator amplifies it.
-fn round_off(estimate: &Estimate, steps: u64, stiffness: f64) -> f64 {
-    let per_step = ROUNDING * LARGEST_COORDINATE * f64::EPSILON * stiffness;
-    per_step * (steps as f64).sqrt() * estimate.sensitivity
+/// Rounding of positions over this many `steps` of `run`, a random walk in double precision, as the estimator amplifies
+/// it.
+fn round_off(run: &YieldEstimates, estimate: &Estimate, steps: u64, stiffness: f64) -> f64 {
+    let walk = || ROUNDING * LARGEST_COORDINATE * f64::EPSILON * (steps as f64).sqrt();
+    run.position_drift.unwrap_or_else(walk) * stiffness * estimate.sensitivity
 }
 
 /// Error of an `estimate` of `run`, in m g, from the last digit that the code prints.
@@ -307,6 +310,7 @@ mod tests {
                 departure: None,
                 pair_friction: None,
                 printed: None,
+                position_drift: None,
             })
             .to_vec()
     }
@@ -436,6 +440,7 @@ mod tests {
                 departure: None,
                 pair_friction: None,
                 printed: None,
+                position_drift: None,
             })
             .to_vec();
         let found = |plain: Option<[usize; 2]>| {
@@ -547,7 +552,7 @@ mod tests {
         assert!((budget.preparation.unwrap() - 0.01).abs() < 1e-12);
         let read = runs[0].slip.unwrap();
         assert_eq!(budget.sampling, read.sampling);
-        assert_eq!(budget.round_off, round_off(&read, 10_000, 100.0));
+        assert_eq!(budget.round_off, round_off(&runs[0], &read, 10_000, 100.0));
         let printed = 0.5e-16 * (1.0 + 3f64.sqrt()) * 100.0 * 3.0;
         assert!((budget.print_precision / printed - 1.0).abs() < 1e-12);
         assert_eq!((budget.shortcuts, budget.convention), (0.0, None));
@@ -588,6 +593,7 @@ mod tests {
             digits: 6,
             finest: 6,
             half_unit: 1e-6,
+            single: false,
         };
         let mut runs = estimates([10.4, 10.2, 10.1, 10.2, 10.2]);
         for run in &mut runs {
@@ -599,7 +605,7 @@ mod tests {
         // two half units.
         let one_run = 50.0 * 7.0 * 1e-6;
         assert!((result.budget.print_precision / (5.0 * one_run) - 1.0).abs() < 1e-12);
-        let rounded = round_off(&runs[2].slip.unwrap(), STEPS[2], 100.0);
+        let rounded = round_off(&runs[2], &runs[2].slip.unwrap(), STEPS[2], 100.0);
         let noise = 1e-9 + rounded + one_run;
         let allowance = ConvergenceOrder::of(&SPEEDS, &[10.4, 10.2, 10.1], noise).allowance;
         assert!((result.order.allowance / allowance - 1.0).abs() < 1e-12);

@@ -47,6 +47,10 @@ impl Study for Measurement {
         unknown.moves_limit
     }
 
+    fn resolution(&self) -> f64 {
+        self.resolution
+    }
+
     fn workloads(&self) -> Vec<Workload> {
         vec![Workload {
             code: self.code.name().clone(),
@@ -113,7 +117,12 @@ impl<'a> Reader<'a> {
         };
         let peak_uncertainty = peak.budget.total() + allowance + self.overshoot(&peak);
         self.finding.peak_uncertainty = Some(peak_uncertainty);
-        let Some((slip, onset)) = slip.zip(onset) else {
+        // An onset is amplified more than a peak, which matters where numbers are coarse.
+        let accepts_coarse = measurement.resolution > MAX_TOLERANCE;
+        let by_onset = slip.zip(onset).filter(|(slip, onset)| {
+            !accepts_coarse || reference != *onset || slip.budget.total() <= peak_uncertainty
+        });
+        let Some((slip, onset)) = by_onset else {
             self.compare(peak.force, peak_uncertainty, reference);
             self.doubt_unknown_parts(&peak.budget, reference);
             self.doubt_few_digits(peak.budget.print_precision, reference);
@@ -121,8 +130,14 @@ impl<'a> Reader<'a> {
             if onset.is_none() {
                 return self.grounds.add(Ground::Remark(SLIDES_AT_REST.to_owned()));
             }
-            self.doubt(self.missing_onset());
-            return self.doubt_deep_wall(reference);
+            if slip.is_none() {
+                self.doubt(self.missing_onset());
+                return self.doubt_deep_wall(reference);
+            }
+            self.grounds.add(Ground::Remark(BY_THE_PEAK.to_owned()));
+            self.doubt_friction();
+            self.doubt_pair_friction();
+            return self.doubt_equal_runs();
         };
         self.compare(slip.force, slip.budget.total(), onset);
         self.doubt_unknown_parts(&slip.budget, onset);
@@ -204,7 +219,7 @@ impl<'a> Reader<'a> {
         let load = self.measurement.stack.floor_load(reference);
         let relative = uncertainty / load;
         let error = (force - reference) / load;
-        let allowed = tolerance(relative);
+        let allowed = tolerance(relative, self.measurement.resolution);
         let is_coarse = Verdict::of(error, relative, allowed) == Verdict::Inconclusive;
         let note = is_coarse.then(|| {
             format!(
@@ -242,10 +257,22 @@ impl<'a> Reader<'a> {
     /// Adds a doubt if too few digits are printed, which is no error of the code. `uncertainty` is what the missing
     /// digits leave open, in m g.
     fn doubt_few_digits(&mut self, uncertainty: f64, reference: f64) {
-        let too_large = uncertainty > MAX_TOLERANCE * self.measurement.stack.floor_load(reference);
+        let too_large = uncertainty
+            > self.measurement.resolution * self.measurement.stack.floor_load(reference);
         if let Some(digits) = self.digits().filter(|_| too_large) {
+            let mut printed = self.estimates.iter().filter_map(|run| run.printed);
+            let [are, needed] = match printed.any(|printed| printed.single) {
+                true => [
+                    "its forces are numbers of 32 bits".to_owned(),
+                    "64 bits are needed".to_owned(),
+                ],
+                false => [
+                    format!("printed with {digits} digits"),
+                    "17 are needed".to_owned(),
+                ],
+            };
             self.doubt(format!(
-                "printed with {digits} digits, by which the yield force may be off by {uncertainty:.1e}; 17 are needed"
+                "{are}, by which the yield force may be off by {uncertainty:.1e}; {needed}"
             ));
         }
     }
@@ -253,7 +280,7 @@ impl<'a> Reader<'a> {
     /// Adds a doubt if arms were not measured well enough, which is no error of the code.
     fn doubt_measured_arms(&mut self, reference: f64) {
         let open = self.measurement.convention_uncertainty.unwrap_or(0.0);
-        if open > MAX_TOLERANCE * self.measurement.stack.floor_load(reference) {
+        if open > self.measurement.resolution * self.measurement.stack.floor_load(reference) {
             let arms = self.measurement.convention.arms;
             self.doubt(format!(
                 "its arms are measured as {}, {}, by whose uncertainty the limit may be off by {open:.1e}",
@@ -437,7 +464,7 @@ impl<'a> Reader<'a> {
     /// Adds doubts about the budget: a deviation that an unknown part may explain decides nothing, and nothing agrees
     /// if the bound of a part is too large.
     fn doubt_unknown_parts(&mut self, budget: &Budget, reference: f64) {
-        let most = MAX_TOLERANCE * self.measurement.stack.floor_load(reference);
+        let most = self.measurement.resolution * self.measurement.stack.floor_load(reference);
         if self.measurement.method == Method::AtOneSpeed && budget.wall_speed > most {
             self.doubt(format!(
                 "the part of the wall speed in the uncertainty is {:.1e}, which is too much for one run: with a slower wall it \
@@ -467,7 +494,9 @@ impl<'a> Reader<'a> {
     fn doubt_equal_runs(&mut self) {
         let compared = self.estimates.get(self.measurement.method.compared_run());
         let hastened = self.hastened().map(|run| &run.estimates);
-        if hastened.is_some() && hastened == compared {
+        // Rest is the same to 32 bits after either ramp.
+        let is_single = compared.is_some_and(|run| run.position_drift.is_some());
+        if hastened.is_some() && hastened == compared && !is_single {
             self.doubt(
                 "two runs that differ in their preparation gave the same bits: a series is that of another \
                  case, or the code takes no notice of the preparation"
@@ -562,6 +591,9 @@ const STEPS_LATE: f64 = 2.0;
 /// Note on rows without an onset under the wall.
 const SLIDES_AT_REST: &str = "the floor slides under the stack's own weight until contact 2-3 bears it: there is no \
                               slip onset under the wall, and the peak is compared";
+
+/// Note on rows of coarse numbers that are judged by the peak.
+const BY_THE_PEAK: &str = "judged by the peak, which is known better than the onset of slip";
 
 /// Note on rows whose planned walls are too fast.
 const ROUGH_TOUCH: &str = "the wall touches the stack so fast that the floor slides for a moment, and a gentle \

@@ -7,16 +7,19 @@ use super::limits::{convention_uncertainty, known_limit};
 use super::runs::{COARSE_AND_FAST_RUN, MIDDLE_RUN, Method, RunRoles, SLOWEST_RUN, SPEEDS};
 use super::symmetry::lost_before_yield;
 use super::touch::{is_gentle, is_surely_gentle, max_touch_speed};
-use crate::code::SettledCode;
+use crate::code::{Settled, SettledCode};
 use crate::model::{
     Arms, Case, ContactConvention, Law, PAPER_BODIES, Preparation, Problem, Protocol, Sampling,
     Shortcuts, Stack,
 };
-use crate::series::YieldEstimates;
+use crate::series::{STEP_IN_SINGLE_PRECISION, YieldEstimates};
+use crate::study::MAX_TOLERANCE;
 use crate::theory::{Limit, LimitCurve, SpeedExcess};
 
 /// Time step of all runs but one.
 const TIME_STEP: f64 = 0.1;
+/// The same where positions are in single precision: fewer steps are rounded, and each is longer in units of the last place.
+const TIME_STEP_IN_SINGLE_PRECISION: f64 = 2.0 * TIME_STEP;
 /// Duration of the gravity ramp of all runs but one.
 pub(super) const RAMP_TIME: f64 = 100.0;
 /// Factor on the duration of the ramp for contacts without stiffness when they just touch (Hertz): their first
@@ -34,6 +37,8 @@ const SLOW_RAMP: f64 = 4.0;
 /// Rows before the fine ones.
 const COARSE_ROWS: f64 = 60.0;
 const FINE_INTERVAL: f64 = 2.0;
+/// Fine rows before the onset, at least, where walls are fast because positions are in single precision.
+const FINE_ROWS: f64 = 10.0;
 /// Fraction of the predicted wall travel to the slip onset from which rows are fine.
 const FINE_FROM: f64 = 0.98;
 /// Travel that is run in any case, as a multiple of the predicted wall travel to the peak.
@@ -90,6 +95,8 @@ pub struct Measurement {
     pub cases: Vec<Case>,
     /// Which run is which.
     pub roles: RunRoles,
+    /// Largest uncertainty with which the force agrees, relative to the load on the floor.
+    pub resolution: f64,
 }
 
 /// Plans the measurement of `stack` with `code` under `convention`.
@@ -113,6 +120,12 @@ impl Measurement {
             true => ConvergenceOrder::OF_RAMPS,
             false => (ConvergenceOrder::EXPECTED, ConvergenceOrder::EXPECTED),
         }
+    }
+
+    /// Returns the measurement with another largest uncertainty with which the force agrees.
+    #[must_use]
+    pub fn accepting(self, resolution: f64) -> Self {
+        Self { resolution, ..self }
     }
 
     /// Extrapolates one estimator over `estimates`, those of the cases in their order.
@@ -198,9 +211,7 @@ pub(crate) fn planned(
         .zip(paper.yield_force)
         .map(|(own, paper)| (own - paper) / stack.floor_load(paper));
     let protocols = match method {
-        Method::Extrapolated => {
-            planned_protocols(&limit, stack, &convention, code.settled().force_lag)
-        }
+        Method::Extrapolated => planned_protocols(&limit, stack, &convention, code.settled()),
         Method::Literal => literal_protocols(&limit),
         Method::AtOneSpeed => None,
     };
@@ -221,6 +232,7 @@ pub(crate) fn planned(
     let roles = RunRoles {
         coarse_and_fast: (cases.len() > COARSE_AND_FAST_RUN).then_some(COARSE_AND_FAST_RUN),
         has_slow_ramps: limit.needs_slow_ramp,
+        speeds: speeds_in_displacements(&cases, &limit, stack, &convention).unwrap_or(SPEEDS),
         ..RunRoles::PLANNED
     };
     let is_literal = method == Method::Literal;
@@ -238,7 +250,22 @@ pub(crate) fn planned(
         roles,
         limit,
         model_form,
+        resolution: MAX_TOLERANCE,
     }
+}
+
+/// The speeds of the walls of `cases`, faster ones for positions in single precision too, in units of the displacement by
+/// which speeds are measured; `None` where those are the planned ones.
+fn speeds_in_displacements(
+    cases: &[Case],
+    limit: &Limit,
+    stack: &Stack,
+    convention: &ContactConvention,
+) -> Option<[f64; 3]> {
+    let scale = speed_scale(limit, stack, convention)?;
+    let factor = cases.first()?.protocol.wall_speed / (SPEEDS[0] * scale);
+    // Speeds are planned to six digits.
+    (factor > 1.0 + 1e-5).then(|| SPEEDS.map(|speed| factor * speed))
 }
 
 /// What a moving wall adds to the `limit` of `stack`; `None` where theory does not know it.
@@ -255,13 +282,28 @@ fn planned_protocols(
     limit: &Limit,
     stack: &Stack,
     convention: &ContactConvention,
-    force_lag: f64,
+    code: &Settled,
 ) -> Option<Vec<Protocol>> {
-    let scale = speed_scale(limit, stack, convention)?;
     let levers = largest_levers(limit, convention);
-    let time_step = stable_time_step(stack, convention, levers, force_lag);
+    let usual = match code.has_single_positions {
+        true => TIME_STEP_IN_SINGLE_PRECISION,
+        false => TIME_STEP,
+    };
+    let time_step = stable_time_step(usual, (stack, convention), levers, code.force_lag);
+    let scale = match code.has_single_positions {
+        true => speed_scale_in_single_precision(limit, stack, convention, time_step)?,
+        false => speed_scale(limit, stack, convention)?,
+    };
     let protocols = SPEEDS.map(|speed| protocol_at_speed(limit, speed * scale, time_step));
     let mut protocols: Vec<Protocol> = protocols.into_iter().collect::<Option<_>>()?;
+    if code.has_single_positions {
+        let watched = limit.travel_to_watch()?;
+        for protocol in &mut protocols {
+            let fine = FINE_ROWS * FINE_INTERVAL * protocol.wall_speed;
+            let from = (FINE_FROM * watched).min((watched - fine).max(0.5 * watched));
+            protocol.sampling.fine_from_travel = rounded(from);
+        }
+    }
     let middle = protocols[MIDDLE_RUN];
     protocols.push(Protocol {
         time_step: 2.0 * time_step,
@@ -293,11 +335,11 @@ pub(crate) fn largest_levers(limit: &Limit, convention: &ContactConvention) -> f
     levers.into_iter().fold(1.0, f64::max)
 }
 
-/// The usual time step, halved until twice that step is stable: below κ = 0.375 tangential springs are too stiff for
+/// The `usual` time step, halved until twice that step is stable: below κ = 0.375 tangential springs are too stiff for
 /// it, and so are they with `levers` much larger than r². Forces that are late by `force_lag` steps must leave half of the damping then.
 fn stable_time_step(
-    stack: &Stack,
-    convention: &ContactConvention,
+    usual: f64,
+    (stack, convention): (&Stack, &ContactConvention),
     levers: f64,
     force_lag: f64,
 ) -> f64 {
@@ -313,7 +355,7 @@ fn stable_time_step(
         latest if latest > 0.0 => latest,
         _ => f64::INFINITY,
     };
-    let mut time_step = TIME_STEP;
+    let mut time_step = usual;
     while 2.0 * time_step > longest || 2.0 * time_step * force_lag > latest {
         time_step *= 0.5;
     }
@@ -349,6 +391,20 @@ pub(super) fn speed_scale(
     }
     let gentle = max_touch_speed(stack, convention) / fastest;
     Some(scale.min(gentle.max(affordable)))
+}
+
+/// The same for positions in single precision: no step of the wall is so short that their rounding adds up, as long as
+/// the fastest wall touches gently.
+fn speed_scale_in_single_precision(
+    limit: &Limit,
+    stack: &Stack,
+    convention: &ContactConvention,
+    time_step: f64,
+) -> Option<f64> {
+    let [fastest, _, slowest] = SPEEDS;
+    let resolved = STEP_IN_SINGLE_PRECISION / (slowest * time_step);
+    let gentle = max_touch_speed(stack, convention) / fastest;
+    Some(speed_scale(limit, stack, convention)?.max(resolved.min(gentle)))
 }
 
 /// The protocol of a run whose wall moves, per unit time, by `speed` times the displacement by which the

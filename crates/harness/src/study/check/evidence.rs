@@ -258,7 +258,7 @@ impl Evidence {
     pub fn next_distance(&self, (step, mut twin): (u64, Twin)) -> f64 {
         let mut found = f64::INFINITY;
         let mut look = |step: u64, row: &Row| {
-            self.distance_at(step, row).map_or(true, |distance| {
+            self.distance_at(step, row).is_none_or(|distance| {
                 found = distance;
                 false
             })

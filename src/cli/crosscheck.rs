@@ -10,7 +10,7 @@ use super::options::{
 };
 use super::out::Out;
 use super::progress::{Reporter, during};
-use super::stack_set::StackSet;
+use super::stack_set::{StackSet, with_options};
 use super::{CliError, ExitStatus, published, tell, tell_grounds};
 use crate::files::Layout;
 use crate::model::Power;
@@ -18,7 +18,7 @@ use crate::output::{
     budget, crosscheck, crosscheck_markdown, friction, json, laws_markdown, laws_svg,
 };
 use crate::runs::{Finder, SelectedCode};
-use crate::study::yield_force::{Judgement, Measurement};
+use crate::study::yield_force::Judgement;
 use crate::study::{Campaign, MAX_TOLERANCE, Verdict};
 use clap::Args;
 use std::collections::BTreeSet;
@@ -143,22 +143,6 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
             .collect()
     });
     Ok(found.max(written))
-}
-
-/// Returns the measurement with the shortcuts and the resolution that are asked for.
-pub(super) fn with_options(
-    measurement: Measurement,
-    shortcuts: bool,
-    resolution: Option<f64>,
-) -> Measurement {
-    let measurement = match shortcuts {
-        true => measurement.shortened(),
-        false => measurement,
-    };
-    match resolution {
-        Some(resolution) => measurement.accepting(resolution),
-        None => measurement,
-    }
 }
 
 /// The largest resolution: a yield force that is known to a tenth of the load says nothing.

@@ -2,10 +2,9 @@
 
 use super::code_names::{code_named, unknown};
 use super::convention::{settle, settle_after_probes};
-use super::crosscheck::with_options;
 use super::options::{Format, Friction, RunOptions, Stiffness, as_flag, find_all, single};
 use super::progress::Reporter;
-use super::stack_set::StackSet;
+use super::stack_set::{StackSet, with_options};
 use super::{CliError, ExitStatus, INTERRUPT};
 use crate::code::Code;
 use crate::model::{Power, Stack};

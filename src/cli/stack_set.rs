@@ -195,3 +195,18 @@ fn filtered<Q>(
     rows.retain(|row| asked.iter().any(|value| is(row, value)));
     Ok(rows)
 }
+/// Returns the measurement with the shortcuts and the resolution that are asked for.
+pub(super) fn with_options(
+    measurement: Measurement,
+    shortcuts: bool,
+    resolution: Option<f64>,
+) -> Measurement {
+    let measurement = match shortcuts {
+        true => measurement.shortened(),
+        false => measurement,
+    };
+    match resolution {
+        Some(resolution) => measurement.accepting(resolution),
+        None => measurement,
+    }
+}

@@ -16,7 +16,7 @@ const STATE: [[&str; 2]; 3] = [
 ];
 
 /// Forces and springs of 32 bits.
-const FORCES: [[&str; 2]; 4] = [
+const FORCES: [[&str; 2]; 5] = [
     STATE[0],
     STATE[2],
     [
@@ -26,6 +26,10 @@ const FORCES: [[&str; 2]; 4] = [
     [
         "self.tangential = -self.kt * stretch - self.ct * sliding",
         "self.tangential = single(-self.kt * stretch - self.ct * sliding)",
+    ],
+    [
+        "        self.vx += self.fx / MASS * dt\n",
+        "        self.fx, self.fy, self.torque = map(single, (self.fx, self.fy, self.torque))\n        self.vx += self.fx / MASS * dt\n",
     ],
 ];
 

@@ -10,7 +10,7 @@ pub const ENOUGH_DIGITS: u32 = 13;
 /// Number of digits that reproduce any double exactly.
 pub const EXACT_DIGITS: u32 = 17;
 /// Decimal digits of single precision.
-pub const SINGLE_DIGITS: u32 = 7;
+const SINGLE_DIGITS: u32 = 7;
 /// The distance of neighbouring numbers of 32 bits between 2 and 4, as the largest coordinates are, in r.
 pub(super) const SINGLE_COORDINATE: f64 = 2.0 * f32::EPSILON as f64;
 /// Shortest step of the wall, in r, at which positions in single precision round at random: a body that moves by a tenth of

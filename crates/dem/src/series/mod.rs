@@ -21,7 +21,7 @@ mod summary;
 
 pub use column::Column;
 pub use digits::PrintedDigits;
-pub use digits::{ENOUGH_DIGITS, EXACT_DIGITS, SINGLE_DIGITS, decimal, most_digits};
+pub use digits::{ENOUGH_DIGITS, EXACT_DIGITS, decimal, most_digits};
 pub use digits::{STEP_IN_SINGLE_PRECISION, TELLING, TELLING_DIGITS, is_of_32_bits};
 pub use drop::DropWatch;
 pub use estimate::{Departure, Estimate, YieldEstimates};

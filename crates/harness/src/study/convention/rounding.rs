@@ -8,7 +8,7 @@
 use super::finding::{Property, VELOCITY_LAG};
 use super::regression::Measured;
 use super::sliding::MARGIN;
-use crate::series::{Column, ENOUGH_DIGITS, EXACT_DIGITS, Motion, MotionRow, SINGLE_DIGITS};
+use crate::series::{Column, EXACT_DIGITS, Motion, MotionRow};
 use crate::series::{TELLING, TELLING_DIGITS, decimal, is_of_32_bits};
 
 /// Number of times that the numbers are moved.
@@ -33,9 +33,9 @@ const SYSTEMATIC: f64 = 0.5;
 /// Largest uncertainty of the moment to which velocities belong, in steps, at which laws can be read from them.
 const LARGEST_LAG: f64 = 0.1;
 
-/// Digits by which a margin is coarser than the numbers, and the largest margin.
+/// Digits by which a margin is coarser than the numbers, and the largest margin, but for rounding.
 const DIGITS_LOST: f64 = 5.0;
-const LARGEST_MARGIN: f64 = 1e-2;
+const LARGEST_MARGIN: f64 = 1.001e-3;
 
 /// How the numbers of some motions are rounded.
 #[derive(Debug, Clone, PartialEq)]
@@ -70,17 +70,16 @@ impl Rounding {
     }
 
     /// The relative distance from Coulomb's limit at which a contact is seen to stick or slide: rounding shifts the speed
-    /// that leads there by up to a hundred thousand units in the last place, and the limits of the two shares of the damping
-    /// are further apart than the largest margin.
+    /// that leads there by up to a hundred thousand units in the last place. Where that is more than a thousandth, the limits of
+    /// the two shares of the damping are too close, and nothing is seen at any distance.
     pub fn margin(&self) -> f64 {
-        let digits = if self.is_single() {
-            SINGLE_DIGITS
-        } else {
-            self.digits
-        };
-        match digits >= ENOUGH_DIGITS {
+        // Decimals are digits of numbers near 1.
+        let decimals = f64::from(-self.last_place.min(0));
+        let margin = libm::exp10(DIGITS_LOST - f64::from(self.digits).min(decimals));
+        let is_exact = self.digits >= EXACT_DIGITS;
+        match is_exact || self.is_single() || margin > LARGEST_MARGIN {
             true => MARGIN,
-            false => libm::exp10(DIGITS_LOST - f64::from(digits)).clamp(MARGIN, LARGEST_MARGIN),
+            false => margin.max(MARGIN),
         }
     }
 

@@ -48,19 +48,16 @@ pub fn converged<E>(
     ends_refinement: impl Fn(&E) -> bool,
 ) -> Result<Vec<Property>, E> {
     let mut motions = Vec::new();
-    let first = measure(declared, 1, 1, None, |tests| {
+    let first = measure(declared, 1, 1, |tests| {
         let own = run(tests)?;
         motions.push(own.clone());
         Ok(own)
     })?;
     let mut first = with_one_radius(first);
     let rounding = Rounding::of(&motions.iter().flatten().collect::<Vec<_>>());
-    let of_first = motions.first().into_iter().flatten();
-    let margin = Rounding::of(&of_first.collect::<Vec<_>>()).margin();
     rounding.widen(&mut first, &motions, |rounded| {
         let mut rounds = rounded.iter();
-        let next = |_: &[ContactTest]| rounds.next().cloned().ok_or(());
-        let read = measure(declared, 1, 1, Some(margin), next);
+        let read = measure(declared, 1, 1, |_| rounds.next().cloned().ok_or(()));
         read.unwrap_or_default()
     });
     let mut found = first.clone();
@@ -70,7 +67,7 @@ pub fn converged<E>(
         if rounding.digits < ENOUGH_DIGITS || rounding.is_single() || !found.iter().any(is_open) {
             break;
         }
-        match measure(declared, divisor, GRAIN * divisor, None, &mut run) {
+        match measure(declared, divisor, GRAIN * divisor, &mut run) {
             Ok(level) => levels.push(level),
             Err(error) if ends_refinement(&error) => break,
             Err(error) => return Err(error),

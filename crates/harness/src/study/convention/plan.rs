@@ -11,7 +11,7 @@ use super::power::NormalPowerLaw;
 use super::properties::{growing_properties, power_properties};
 use super::properties::{growth, normal_properties, sliding_properties, tangential_properties};
 use super::regression::{Measured, fit};
-use super::sliding::{SlidingLaw, is_at_limit, largest_operand};
+use super::sliding::{MARGIN, SlidingLaw, is_at_limit, largest_operand};
 use super::tangential::TangentialLaw;
 use crate::model::{ContactConvention, ContactTest};
 use crate::series::Motion;
@@ -185,16 +185,15 @@ pub struct Laws {
 
 impl Laws {
     /// Motions to just below and just above Coulomb's limit, for every share of the damping that may count in
-    /// its operand, by a relative `margin`. Sticking is linear in the spin: the gentle motion determines how fast they must
-    /// be.
-    pub fn threshold_tests(&self, margin: f64) -> Vec<ContactTest> {
+    /// its operand. Sticking is linear in the spin: the gentle motion determines how fast they must be.
+    pub fn threshold_tests(&self) -> Vec<ContactTest> {
         let Some(gentle) = self.rows.get(GENTLE) else {
             return Vec::new();
         };
         let spins = SHARES.iter().flat_map(|&share| {
             let largest = largest_operand(gentle, &self.tangential, share);
             let at_limit = GENTLE_SPIN / largest.map_or(f64::NAN, |(_, ratio)| ratio);
-            [at_limit * (1.0 - margin), at_limit * (1.0 + margin)]
+            [at_limit * (1.0 - MARGIN), at_limit * (1.0 + MARGIN)]
         });
         let tests = spins.map(|spin| {
             // A contact without friction or damping has no threshold: any motion will do.
@@ -206,7 +205,7 @@ impl Laws {
 
     /// The share of the damping in the Coulomb operand: the one with which the contact sticks just below the
     /// limit and slides just above it.
-    fn operand_damping(&self, outcomes: &[TestedMotion], clock: &Clock, margin: f64) -> Measured {
+    fn operand_damping(&self, outcomes: &[TestedMotion], clock: &Clock) -> Measured {
         let gentle = self.rows.get(GENTLE).map_or(&[][..], Vec::as_slice);
         let candidates = SHARES.iter().zip(outcomes.chunks(2));
         let mut found = candidates.filter_map(|(&share, motions)| {
@@ -214,11 +213,11 @@ impl Laws {
             let slides = |(test, motion): &TestedMotion| {
                 let rows = contact_rows(self.plan.kind, test, motion, clock);
                 let rows = self.tangential.with_lift(&rows);
-                rows.get(row).map(|row| is_at_limit(row, margin))
+                rows.get(row).map(is_at_limit)
             };
             let [below, above] = [motions.first()?, motions.get(1)?].map(slides);
             let found = below == Some(false) && above == Some(true);
-            found.then(|| Measured::new(share, margin * self.limit_over_damping(row, ratio)))
+            found.then(|| Measured::new(share, MARGIN * self.limit_over_damping(row, ratio)))
         });
         found.next().unwrap_or(Measured::UNKNOWN)
     }
@@ -230,13 +229,8 @@ impl Laws {
         row.friction * row.normal_force * ratio / damping.abs()
     }
 
-    /// All properties of the kind; `near_slip` are the motions to the slip threshold, by a relative `margin`.
-    pub fn properties(
-        &self,
-        near_slip: &[TestedMotion],
-        clock: &Clock,
-        margin: f64,
-    ) -> Vec<Property> {
+    /// All properties of the kind; `near_slip` are the motions to the slip threshold.
+    pub fn properties(&self, near_slip: &[TestedMotion], clock: &Clock) -> Vec<Property> {
         let kind = self.plan.kind;
         let test = &self.plan.tests[0];
         let mut properties = match &self.normal {
@@ -256,7 +250,7 @@ impl Laws {
             let couple = rolling_couple(&self.rows[STICKING]);
             properties.extend(couple.map(|own| Property::at(kind, ROLLING_COUPLE, own, 0.0)));
         }
-        let share = self.operand_damping(near_slip, clock, margin);
+        let share = self.operand_damping(near_slip, clock);
         let sliding = SlidingLaw::read(&self.rows[SLIDING], &self.tangential, share.value);
         properties.extend(match &self.normal {
             Normal::Linear(_) => tangential_properties(kind, &self.tangential, test),

@@ -6,7 +6,6 @@ use super::cycle;
 use super::experiments::{self, ContactKind};
 use super::finding::{Property, RADIUS, SPRING_RADIUS, TOLERANCE};
 use super::plan::{Laws, MicroTests, TestedMotion};
-use super::rounding::Rounding;
 use super::space;
 use super::tangential::radii_apart;
 use crate::code::Declaration;
@@ -30,18 +29,16 @@ pub fn probe<E>(
     declared: &Declaration,
     run: impl FnMut(&[ContactTest]) -> Result<Vec<Motion>, E>,
 ) -> Result<Vec<Property>, E> {
-    let properties = measure(declared, 1, 1, None, run)?;
+    let properties = measure(declared, 1, 1, run)?;
     Ok(without_consequences(with_one_radius(properties)))
 }
 
 /// Measures all properties by micro-tests whose time steps are divided by `divisor`. Motions are cut off after multiples
-/// of `grain` of their steps. Coulomb's limit is approached to a relative `margin`; without one, to that which the digits
-/// of the motions allow.
+/// of `grain` of their steps.
 pub(super) fn measure<E>(
     declared: &Declaration,
     divisor: u64,
     grain: u64,
-    margin: Option<f64>,
     mut run: impl FnMut(&[ContactTest]) -> Result<Vec<Motion>, E>,
 ) -> Result<Vec<Property>, E> {
     let convention = &declared.convention;
@@ -63,8 +60,6 @@ pub(super) fn measure<E>(
     };
     let tests = refined(tests);
     let motions = run(&tests)?;
-    let margin =
-        margin.unwrap_or_else(|| Rounding::of(&motions.iter().collect::<Vec<_>>()).margin());
     let outcomes: Vec<TestedMotion> = tests.iter().zip(&motions).collect();
     let (outcomes, of_spheres) = outcomes.split_at(in_the_plane);
     let (outcomes, driven) = outcomes.split_at(free);
@@ -86,8 +81,7 @@ pub(super) fn measure<E>(
     let in_space = space::properties(of_spheres, &clock, declared);
     let cycles = cycle::properties(driven, &clock, |kind| of(kind).map(Laws::tangential));
     let floor_ratio = floor_ratio(of, declared);
-    let near_slip = laws.iter().map(|laws| laws.threshold_tests(margin));
-    let near_slip: Vec<Vec<ContactTest>> = near_slip.collect();
+    let near_slip: Vec<Vec<ContactTest>> = laws.iter().map(Laws::threshold_tests).collect();
     let tests = refined(near_slip.concat());
     let motions = run(&tests)?;
     let outcomes: Vec<TestedMotion> = tests.iter().zip(&motions).collect();
@@ -96,7 +90,7 @@ pub(super) fn measure<E>(
     for (laws, tests) in laws.iter().zip(&near_slip) {
         let (own, others) = unread.split_at(tests.len());
         unread = others;
-        properties.extend(laws.properties(own, &clock, margin));
+        properties.extend(laws.properties(own, &clock));
     }
     properties.extend(floor_ratio.into_iter().chain(cycles));
     properties.extend(in_space);

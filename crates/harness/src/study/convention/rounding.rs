@@ -7,7 +7,6 @@
 
 use super::finding::{Property, VELOCITY_LAG};
 use super::regression::Measured;
-use super::sliding::MARGIN;
 use crate::series::{Column, EXACT_DIGITS, Motion, MotionRow};
 use crate::series::{TELLING, TELLING_DIGITS, decimal, is_of_32_bits};
 
@@ -32,10 +31,6 @@ const SYSTEMATIC: f64 = 0.5;
 
 /// Largest uncertainty of the moment to which velocities belong, in steps, at which laws can be read from them.
 const LARGEST_LAG: f64 = 0.1;
-
-/// Digits by which a margin is coarser than the numbers, and the largest margin, but for rounding.
-const DIGITS_LOST: f64 = 5.0;
-const LARGEST_MARGIN: f64 = 1.001e-3;
 
 /// How the numbers of some motions are rounded.
 #[derive(Debug, Clone, PartialEq)]
@@ -67,20 +62,6 @@ impl Rounding {
             }
         }
         own
-    }
-
-    /// The relative distance from Coulomb's limit at which a contact is seen to stick or slide: rounding shifts the speed
-    /// that leads there by up to a hundred thousand units in the last place. Where that is more than a thousandth, the limits of
-    /// the two shares of the damping are too close, and nothing is seen at any distance.
-    pub fn margin(&self) -> f64 {
-        // Decimals are digits of numbers near 1.
-        let decimals = f64::from(-self.last_place.min(0));
-        let margin = libm::exp10(DIGITS_LOST - f64::from(self.digits).min(decimals));
-        let is_exact = self.digits >= EXACT_DIGITS;
-        match is_exact || self.is_single() || margin > LARGEST_MARGIN {
-            true => MARGIN,
-            false => margin.max(MARGIN),
-        }
     }
 
     /// Whether positions are in single precision.
@@ -339,37 +320,6 @@ mod tests {
         });
         let told: Vec<String> = told.collect();
         assert!(told.is_empty(), "{}", told.join("\n"));
-    }
-
-    #[test]
-    fn what_coulombs_limit_is_compared_with_is_known_from_eight_digits_on() {
-        let exact = conventions().map(|convention| properties(convention, |value| value));
-        let cases = (0..exact.len()).flat_map(|place| (8..=16).map(move |digits| (place, digits)));
-        let cases: Vec<(usize, usize)> = cases.collect();
-        let unknown = cases.into_par_iter().flat_map_iter(|(place, digits)| {
-            let print = |value: f64| {
-                let text = format!("{value:.*e}", digits - 1);
-                text.parse().expect("a number")
-            };
-            let found = properties(conventions()[place], print);
-            let shares = exact[place]
-                .iter()
-                .filter(|own| own.name.ends_with("_coulomb_damping_share"));
-            let unknown = shares.filter_map(|own| {
-                let other = found.iter().find(|other| other.name == own.name)?.measured;
-                let is_known =
-                    (other.value - own.measured.value).abs() < 0.25 && other.uncertainty < 0.25;
-                (!is_known).then(|| {
-                    format!(
-                        "{digits} digits, convention {place}: {} {other:?}",
-                        own.name
-                    )
-                })
-            });
-            unknown.collect::<Vec<_>>()
-        });
-        let unknown: Vec<String> = unknown.collect();
-        assert!(unknown.is_empty(), "{}", unknown.join("\n"));
     }
 
     #[test]

@@ -12,8 +12,7 @@ const SAME_RATIO: f64 = 1e-7;
 /// Fewest rows with the same ratio that count as sliding: friction and damping follow from them.
 const FEWEST: usize = 3;
 
-/// Relative distance below and above the limit at which the contact is observed to stick or slide, if its numbers have all
-/// digits ([`super::rounding::Rounding::margin`]).
+/// Relative distance below and above the limit at which the contact is observed to stick or slide.
 pub const MARGIN: f64 = 1e-10;
 
 /// The law of a contact that slides.
@@ -117,8 +116,8 @@ pub fn largest_operand(
     ratios.max_by(|(_, left), (_, right)| left.total_cmp(right))
 }
 
-/// Whether a row is at the limit rather than a `margin` below or above it.
-pub fn is_at_limit(row: &ContactRow, margin: f64) -> bool {
+/// Whether a row is at the limit rather than a [`MARGIN`] below or above it.
+pub fn is_at_limit(row: &ContactRow) -> bool {
     let limit = row.friction * row.normal_force;
-    (row.friction_force() / limit - 1.0).abs() < 0.5 * margin
+    (row.friction_force() / limit - 1.0).abs() < 0.5 * MARGIN
 }

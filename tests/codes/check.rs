@@ -661,13 +661,15 @@ fn folders_that_misbehave_harm_nothing() {
             assert!(told.concat().contains(words), "{before}: {told:#?}");
             let processes = processes_in(&bench.path("."));
             assert!(processes.is_empty(), "{before}: {processes:?}");
-            // Of a run that failed its directory is kept, for its author to look at; of others nothing.
+            // Of a run that failed its directory is kept, for its author to look at, and what was found, in the store; of
+            // others nothing.
             let names = fs::read_dir(bench.path("."))
                 .expect("a directory")
                 .flatten();
             let names = names.map(|entry| entry.file_name().to_string_lossy().into_owned());
             let foreign = names.filter(|name| {
-                let is_kept = *expected != 0 && name.starts_with("tristack-check-");
+                let is_kept =
+                    *expected != 0 && (name.starts_with("tristack-check-") || name == "store");
                 name != "mydem" && name != "programs" && !is_kept
             });
             assert_eq!(

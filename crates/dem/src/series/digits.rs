@@ -248,7 +248,7 @@ mod tests {
                 < 1e-3
         );
         // Short numbers, and columns of both kinds, are none.
-        assert!(!is_single((1..400).map(|row| f64::from(row) / 1024.0)));
+        assert!(!is_single((1..400).map(|row| f64::from(row) / 16.0)));
         assert!(!is_single(single.chain(values)));
     }
 

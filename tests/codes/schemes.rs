@@ -152,7 +152,7 @@ fn a_scheme_that_converges_is_judged_by_files_alone() {
     let bench = bench(&scheme(TEXTBOOK_VERLET), &[]);
     let plan = "plan --codes ./mydem --mu 0.3 --stiffness 100 --out away";
     // Two rounds at each time step, before and after the runs of the stack.
-    let mut rounds = 0..20;
+    let mut rounds = 0..24;
     let is_whole = rounds.any(|_| {
         let output = bench.tristack(plan).output().expect("it runs");
         let told = String::from_utf8(output.stderr).expect("text");

@@ -155,7 +155,7 @@ fn a_scheme_that_converges_is_judged_by_files_alone() {
     let mut rounds = 0..24;
     let is_whole = rounds.any(|_| {
         let output = bench.tristack(plan).output().expect("it runs");
-        let told = String::from_utf8(output.stderr).expect("text");
+        let told = String::from_utf8(output.stdout).expect("text");
         let is_whole = told.contains("to do: 0 runs");
         if !is_whole {
             let mut started = Command::new("sh");

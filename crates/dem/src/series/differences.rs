@@ -3,9 +3,6 @@
 use super::digits::Rounding;
 use super::sample::Sample;
 
-/// Rounding of the largest coordinate of the stack, 1 + √3.
-pub(super) const COORDINATE: f64 = 3.0 * f64::EPSILON;
-
 /// Time for which the stack rings, in √(m/k_n); with a restitution of 0.7 it is about ten.
 pub(super) const RINGING_TIME: f64 = 10.0;
 

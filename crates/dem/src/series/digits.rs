@@ -1,10 +1,11 @@
 //! The number of digits with which a code has printed a series, inferred from its numbers.
 
 use super::column::Column;
-use super::differences::COORDINATE;
 use super::sample::{ANGLE, FORCE, LENGTH, Sample};
 use serde::{Deserialize, Serialize};
 
+/// Rounding of the largest coordinate of the stack, 1 + √3.
+pub(super) const COORDINATE: f64 = 3.0 * f64::EPSILON;
 /// Number of digits at which rounding is far below every tolerance for micro-tests and trajectories.
 pub const ENOUGH_DIGITS: u32 = 13;
 /// Number of digits that reproduce any double exactly.

@@ -9,7 +9,7 @@
 //! where W is the travel of the wall and Ÿ is the imbalance of floor and wall. Each change of the wall speed by Δv
 //! adds to Ÿ an oscillation with the envelope Δv w/ω_d e^(−η t/2), ω_d² = w − η²/4 (docs/theory.md, section 8.6).
 
-use super::differences::COORDINATE;
+use super::digits::COORDINATE;
 use crate::model::{Case, ContactConvention, ContactLaw, Power, PreparationSteps, Schedule, Stack};
 
 /// Number of time steps by which an oscillation may be younger than a row says: the wall may begin to move one step

@@ -65,11 +65,14 @@ impl CoveredFiles {
         }
         let (files, libraries) = (search.files.clone(), search.libraries.clone());
         let environment = search.packages.with_libraries(environment);
-        let mapped = search.loaders.iter().flat_map(|(program, loader)| {
+        let loaders = search.loaders.par_iter();
+        let mapped = loaders.flat_map_iter(|(program, loader)| {
             // Extensions of an interpreter are mapped into it as soon as they are imported.
             mapped_by_loader(loader, program, &libraries, &environment)
         });
-        let all: BTreeSet<PathBuf> = mapped.chain(files).chain(libraries.clone()).collect();
+        let mapped: Vec<PathBuf> = mapped.collect();
+        let others = files.into_iter().chain(libraries.clone());
+        let all: BTreeSet<PathBuf> = others.chain(mapped).collect();
         Self::hashed(all)
     }
 

@@ -156,7 +156,8 @@ pub(crate) fn ask(
     })
 }
 
-/// Carries out `tests` at a `place`; those in the plane come first, since each kind has a deck of its own.
+/// Carries out `tests` at a `place`; those in the plane come first. Each kind has a deck of its own, and is carried out at
+/// the same time as the other one where a worker is free.
 fn carry_out(
     code: &dyn InstalledCode,
     tests: &[ContactTest],
@@ -165,16 +166,22 @@ fn carry_out(
 ) -> Result<Vec<Motion>, Box<Failure>> {
     let (in_the_plane, in_space) =
         tests.split_at(tests.partition_point(|test| test.space.is_none()));
-    let in_space_too = place.join("in-space");
-    let mut motions = Vec::new();
-    for (tests, place) in [(in_the_plane, place), (in_space, &in_space_too)] {
-        if !tests.is_empty() {
+    let (time_limit, interrupt) = (context.time_limit, context.interrupt);
+    let motions = |tests: &[ContactTest], place: &Path| match tests.is_empty() {
+        true => Ok(Vec::new()),
+        false => {
             let context = RunContext {
-                time_limit: context.time_limit,
-                ..RunContext::new(place, context.interrupt)
+                time_limit,
+                ..RunContext::new(place, interrupt)
             };
-            motions.extend(code.probe(tests, &context)?);
+            code.probe(tests, &context)
         }
-    }
+    };
+    let (in_the_plane, in_space) = rayon::join(
+        || motions(in_the_plane, place),
+        || motions(in_space, &place.join("in-space")),
+    );
+    let mut motions = in_the_plane?;
+    motions.extend(in_space?);
     Ok(motions)
 }

@@ -144,7 +144,7 @@ fn conclude(codes: &[SelectedCode], probed: &[Probed], findings: &[Finding]) -> 
     }
     for (selected, result) in codes.iter().zip(probed) {
         if let Ok(probe) = result
-            && let Some(digits) = probe.few_digits
+            && let Some(digits) = probe.few_digits()
         {
             let name = selected.name.clone();
             tell!("{name}: its motions are printed with {digits} digits, too few to contradict it");

@@ -96,7 +96,7 @@ pub fn passport_json(passport: &Passport, command: &str) -> String {
         machine: &provenance.machine,
         reservations: reservations(passport.findings),
         time_step_effects: passport.time_step_effects(),
-        few_digits: passport.findings.few_digits,
+        digits: passport.findings.digits,
         single_precision: &passport.findings.single,
         convention: convention.part(),
         arm_effects: effects.part(),
@@ -160,9 +160,9 @@ struct Document<'a, T> {
     reservations: Vec<String>,
     /// What its contacts do otherwise in long steps than in short ones; arms are those of short steps.
     time_step_effects: Vec<String>,
-    /// Number of significant digits of the motions, where they are too few to contradict a declaration.
+    /// Number of significant digits of the motions, where they are fewer than a number has.
     #[serde(skip_serializing_if = "Option::is_none")]
-    few_digits: Option<u32>,
+    digits: Option<u32>,
     /// Quantities of the motions that are numbers of 32 bits, where there are any.
     #[serde(skip_serializing_if = "<[_]>::is_empty")]
     single_precision: &'a [&'static str],

@@ -389,7 +389,7 @@ fn cause(probed: &Probed) -> Cause {
         Cause::NotProbed
     } else if !probe.single.is_empty() {
         Cause::SinglePrecision
-    } else if probe.few_digits.is_some() {
+    } else if probe.few_digits().is_some() {
         Cause::FewDigits
     } else {
         Cause::NotKnown

@@ -4,12 +4,16 @@ use super::meanings::{base_name, meanings};
 use crate::study::Verdict;
 use crate::study::convention::{ArmEffect, PassportFile, PropertyRow, TOLERANCE};
 
+/// Uncertainties between a value that is read from rounded numbers and the true one: stated is what eight roundings have
+/// moved, and the tests of the probe hold twice that for every number of digits.
+const COVERAGE_OF_ROUNDING: f64 = 2.0;
+
 /// Everything in which two passports differ.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Difference {
     /// Rules and properties that differ, in the order of the passports.
     pub changes: Vec<Change>,
-    /// Rules and properties that one of them knows, and the other, whose motions have few digits, does not.
+    /// Rules and properties that only one of them knows, where the motions of either have few digits.
     pub unknown: Vec<String>,
     /// The exact yield forces of the stacks that both have.
     pub forces: Vec<ForceChange>,
@@ -72,9 +76,13 @@ impl Change {
 }
 
 /// Compares the passports `before` and `after`. Rules in words differ if their words do; numbers differ by more than
-/// their uncertainties and the tolerance between a property and its declaration. What one of them does not know is no
-/// difference if its motions have few digits.
+/// their uncertainties and the tolerance between a property and its declaration. What only one of them knows is no
+/// difference if the motions of either have few digits, and twice the uncertainty is allowed then.
 pub fn difference(before: &PassportFile, after: &PassportFile) -> Difference {
+    let is_coarse = [before, after]
+        .iter()
+        .any(|own| own.is_coarse_because().is_some());
+    let coverage = if is_coarse { COVERAGE_OF_ROUNDING } else { 1.0 };
     let further = after.convention.iter();
     let further = further.filter(|own| before.key(&own.key).is_none());
     let keys = before.convention.iter().chain(further);
@@ -96,7 +104,7 @@ pub fn difference(before: &PassportFile, after: &PassportFile) -> Difference {
     let names = before.properties.iter().chain(further);
     let numbers = names.filter_map(|own| {
         let name = &own.property;
-        changed(name, before.property(name), after.property(name))
+        changed(name, before.property(name), after.property(name), coverage)
     });
     let forces = before.arm_effects.iter().filter_map(|own| {
         let mut others = after.arm_effects.iter();
@@ -106,12 +114,8 @@ pub fn difference(before: &PassportFile, after: &PassportFile) -> Difference {
         })?;
         Some(force(own, other))
     });
-    let is_coarse = [before, after].map(|own| own.is_coarse_because().is_some());
-    let is_unknown = |own: &Change| {
-        let known = [&own.before, &own.after];
-        let mut sides = known.into_iter().zip(is_coarse);
-        sides.any(|(known, is_coarse)| known.is_none() && is_coarse)
-    };
+    // What few digits leave open decides which properties are read, too.
+    let is_unknown = |own: &Change| is_coarse && (own.before.is_none() || own.after.is_none());
     let (unknown, changes): (Vec<_>, Vec<_>) = words.chain(numbers).partition(is_unknown);
     Difference {
         changes,
@@ -120,11 +124,12 @@ pub fn difference(before: &PassportFile, after: &PassportFile) -> Difference {
     }
 }
 
-/// Returns the change of the property `name`, if it differs.
+/// Returns the change of the property `name`, if it is by more than `coverage` times the uncertainties.
 fn changed(
     name: &str,
     before: Option<&PropertyRow>,
     after: Option<&PropertyRow>,
+    coverage: f64,
 ) -> Option<Change> {
     let known = |row: Option<&PropertyRow>| {
         let row = row?;
@@ -142,7 +147,9 @@ fn changed(
         .fold(0.0, f64::max);
     let scale = if declared > 0.0 { declared } else { 1.0 };
     let same = match change.zip(uncertainty) {
-        Some((change, open)) => Verdict::of(change, open, TOLERANCE * scale) != Verdict::Differs,
+        Some((change, open)) => {
+            Verdict::of(change, coverage * open, TOLERANCE * scale) != Verdict::Differs
+        }
         None => first.is_none() && second.is_none(),
     };
     (!same).then(|| Change {

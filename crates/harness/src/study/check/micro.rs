@@ -89,7 +89,7 @@ impl Micro {
             return false;
         };
         let scale = if declared == 0.0 { 1.0 } else { declared.abs() };
-        let relative = match self.findings.few_digits {
+        let relative = match self.findings.few_digits() {
             Some(_) => GROSS,
             None => TOLERANCE,
         };

@@ -9,7 +9,7 @@ use super::settled::settled;
 use crate::code::{Code, ConventionKey, Declaration, Identity, Provenance, Settled, TaskKind};
 use crate::model::ContactTest;
 use crate::runs::{ProbeRecord, Progress, RunError, SelectedCode, Settings, Workload, read_all};
-use crate::series::ENOUGH_DIGITS;
+use crate::series::{ENOUGH_DIGITS, EXACT_DIGITS};
 use crate::study::Verdict;
 use thiserror::Error;
 
@@ -58,12 +58,23 @@ pub struct Findings {
     pub settled: Settled,
     /// Its convention as measured, whatever is declared.
     pub measured: Settled,
-    /// The number of digits with which it has printed the motions, if too few to contradict a declaration.
-    pub few_digits: Option<u32>,
+    /// The number of significant digits with which it has printed the motions, if fewer than a number has.
+    pub digits: Option<u32>,
     /// The quantities of its motions that are in single precision.
     pub single: Vec<&'static str>,
     /// Whether no contact acts in any of the motions, so that nothing can be measured.
     pub no_contact: bool,
+}
+
+impl Findings {
+    /// The number of digits with which it has printed the motions, if too few to contradict a declaration.
+    pub fn few_digits(&self) -> Option<u32> {
+        self.digits.filter(|digits| are_few(*digits))
+    }
+}
+
+fn are_few(digits: u32) -> bool {
+    digits < ENOUGH_DIGITS
 }
 
 /// The findings on one selected code, or why there are none.
@@ -140,14 +151,14 @@ pub fn read_probe(code: &Code, record: ProbeRecord) -> Probed {
         has_single_positions: rounding.has_single_positions(),
         ..settled
     };
-    let few_digits = Some(rounding.digits).filter(|digits| *digits < ENOUGH_DIGITS);
+    let digits = Some(rounding.digits).filter(|digits| *digits < EXACT_DIGITS);
     let no_contact = acts_nowhere(&record.answers);
     let properties = properties.into_iter();
     let findings = properties.map(|property| {
         let finding = property.judge(code, version);
-        match few_digits {
-            Some(_) => undecided(finding),
-            None => finding,
+        match digits.is_some_and(are_few) {
+            true => undecided(finding),
+            false => finding,
         }
     });
     Ok(Findings {
@@ -155,7 +166,7 @@ pub fn read_probe(code: &Code, record: ProbeRecord) -> Probed {
         settled,
         measured,
         provenance: record.provenance,
-        few_digits,
+        digits,
         single: rounding.single_quantities(),
         no_contact,
     })
@@ -256,7 +267,7 @@ pub fn contradicting(probe: &Findings) -> Vec<String> {
         let explains = one.other_model().is_some() || one.growth().is_some();
         (one.verdict != Verdict::Differs, !explains)
     });
-    let digits = probe.few_digits.map_or_else(String::new, |digits| {
+    let digits = probe.few_digits().map_or_else(String::new, |digits| {
         format!(" (printed with {digits} digits)")
     });
     let line = |one: &Finding| format!("{}{digits}", contradiction(one));
@@ -332,7 +343,7 @@ mod tests {
             settled: SettledCode::native().settled().clone(),
             measured: SettledCode::native().settled().clone(),
             findings: verdicts.iter().map(finding).collect(),
-            few_digits: None,
+            digits: None,
             single: Vec::new(),
             no_contact: false,
         })
@@ -431,6 +442,6 @@ mod tests {
         let first = &contradictions(&probed)[0];
         assert!(first.ends_with("(printed with 6 digits)"), "{first}");
         let property = &probe_with_digits(17).unwrap();
-        assert_eq!(property.few_digits, None);
+        assert_eq!(property.digits, None);
     }
 }

@@ -42,9 +42,9 @@ pub struct PassportFile {
     pub reservations: Vec<String>,
     /// What its contacts do differently in long time steps.
     pub time_step_effects: Vec<String>,
-    /// Number of significant digits of the motions, where they are too few to contradict a declaration.
+    /// Number of significant digits of the motions, where they are fewer than a number has.
     #[serde(default)]
-    pub few_digits: Option<u32>,
+    pub digits: Option<u32>,
     /// Quantities of the motions that are numbers of 32 bits.
     #[serde(default)]
     pub single_precision: Vec<String>,
@@ -142,9 +142,7 @@ impl PassportFile {
     /// Why it may not know what another passport of the same contacts does; absent for motions in double precision with
     /// all digits.
     pub fn is_coarse_because(&self) -> Option<String> {
-        let digits = self
-            .few_digits
-            .map(|digits| format!("have {digits} digits"));
+        let digits = self.digits.map(|digits| format!("have {digits} digits"));
         let single = || {
             format!(
                 "are numbers of 32 bits ({})",

@@ -29,6 +29,11 @@ const QUANTITIES: [(&str, &str); 5] = [
 /// Share of the largest change that the mean change has, if the changes are not random.
 const SYSTEMATIC: f64 = 0.5;
 
+/// Largest change that may be the rounding of our own arithmetic: where numbers are rounded less than that, further
+/// roundings show nothing. Properties are numbers of order 1, and coefficients come from up to a thousand rows, a digit or two
+/// apart.
+const ARITHMETIC: f64 = 1e-12;
+
 /// Largest uncertainty of the moment to which velocities belong, in steps, at which laws can be read from them.
 const LARGEST_LAG: f64 = 0.1;
 
@@ -178,7 +183,7 @@ fn moved_by_rounding(once: &[f64], thrice: &[f64]) -> f64 {
         return f64::INFINITY;
     }
     // Otherwise the changes are random, and as large as that of the first rounding.
-    let is_systematic = one.abs() > SYSTEMATIC * largest;
+    let is_systematic = largest > ARITHMETIC && one.abs() > SYSTEMATIC * largest;
     let ratio = three / one;
     let factor = match is_systematic && ratio < 3.0 {
         true if ratio <= 1.5 => f64::INFINITY,

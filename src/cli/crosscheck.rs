@@ -5,8 +5,8 @@ use super::explain::{RowName, explain, row_name};
 use super::findings::exchange_all;
 use super::interrupt::interrupted_after;
 use super::options::{
-    CodeOptions, Format, RowOptions, RunOptions, StackOptions, check_compress, find_all, number,
-    options_of, power, selected_codes, tell_stand_ins,
+    CodeOptions, Format, ResolutionOptions, RowOptions, RunOptions, StackOptions, check_compress,
+    find_all, options_of, power, selected_codes, tell_stand_ins,
 };
 use super::out::Out;
 use super::progress::{Reporter, during};
@@ -19,7 +19,7 @@ use crate::output::{
 };
 use crate::runs::{Finder, SelectedCode};
 use crate::study::yield_force::Judgement;
-use crate::study::{Campaign, MAX_TOLERANCE, Verdict};
+use crate::study::{Campaign, Verdict};
 use clap::Args;
 use std::collections::BTreeSet;
 use std::path::PathBuf;
@@ -62,11 +62,8 @@ pub(super) struct Arguments {
     /// run without shortcuts measures what this changes
     #[arg(long)]
     shortcuts: bool,
-    /// Accept yield forces that are known to this much of the load on the floor, F + 3 for cylinders, instead of 1e-5: codes
-    /// in single precision, or that print few digits, are judged to what they resolve. Walls of codes with positions in single
-    /// precision move as fast as these need
-    #[arg(long, value_name = "SHARE", value_parser = resolution)]
-    resolution: Option<f64>,
+    #[command(flatten)]
+    resolution: ResolutionOptions,
     #[command(flatten)]
     rows: RowOptions,
     #[command(flatten)]
@@ -95,7 +92,7 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
             row,
             &arguments.stacks,
             arguments.law,
-            (arguments.shortcuts, arguments.resolution),
+            (arguments.shortcuts, &arguments.resolution),
             &arguments.run,
             (arguments.format, command),
         );
@@ -109,14 +106,14 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
     };
     let out = Out::claim(arguments.out.as_deref(), &layout())?;
     let settings = arguments.run.settings()?;
-    let settled = match arguments.resolution {
-        Some(_) => settle_after_probes(&codes, &arguments.run)?,
-        None => settle(&codes, &arguments.run)?,
+    let settled = match arguments.resolution.is_given() {
+        true => settle_after_probes(&codes, &arguments.run)?,
+        false => settle(&codes, &arguments.run)?,
     };
     let planned = || arguments.stacks.measurements(&settled, arguments.law);
     let measurements = during("planning", planned)?.into_iter();
     let measurements = measurements
-        .map(|own| with_options(own, arguments.shortcuts, arguments.resolution))
+        .map(|own| with_options(own, arguments.shortcuts, &arguments.resolution))
         .collect::<Vec<_>>();
     let planned = measurements.len();
     let judgements = Campaign::new(&codes, &settings, &Reporter::new()).carry_out(measurements);
@@ -143,19 +140,6 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
             .collect()
     });
     Ok(found.max(written))
-}
-
-/// The largest resolution: a yield force that is known to a tenth of the load says nothing.
-const COARSEST: f64 = 0.1;
-
-/// Reads a resolution.
-fn resolution(text: &str) -> Result<f64, String> {
-    let share = number(text)?;
-    let accepted = MAX_TOLERANCE..=COARSEST;
-    match accepted.contains(&share) {
-        true => Ok(share),
-        false => Err(format!("accepted is {MAX_TOLERANCE:e} to {COARSEST}")),
-    }
 }
 
 /// Returns the files that [`publish`] writes.

@@ -2,7 +2,9 @@
 
 use super::code_names::{code_named, unknown};
 use super::convention::{settle, settle_after_probes};
-use super::options::{Format, Friction, RunOptions, Stiffness, as_flag, find_all, single};
+use super::options::{
+    Format, Friction, ResolutionOptions, RunOptions, Stiffness, as_flag, find_all, single,
+};
 use super::progress::Reporter;
 use super::stack_set::{StackSet, with_options};
 use super::{CliError, ExitStatus, INTERRUPT};
@@ -50,7 +52,7 @@ pub(super) fn explain(
     row: &RowName,
     stacks: &StackSet,
     power: Power,
-    (shortcuts, resolution): (bool, Option<f64>),
+    (shortcuts, resolution): (bool, &ResolutionOptions),
     options: &RunOptions,
     (format, command): (Format, &str),
 ) -> Result<ExitStatus, CliError> {
@@ -63,9 +65,9 @@ pub(super) fn explain(
     let accepted = row.code.check_stiffness_ratio(stack.stiffness_ratio);
     accepted.map_err(as_flag)?;
     let codes = find_all(std::slice::from_ref(&row.code));
-    let settled = match resolution {
-        Some(_) => settle_after_probes(&codes, options)?,
-        None => settle(&codes, options)?,
+    let settled = match resolution.is_given() {
+        true => settle_after_probes(&codes, options)?,
+        false => settle(&codes, options)?,
     };
     let measurement = stacks.profile()?.measurement(&settled[0], &stack, power);
     let measurements = vec![with_options(measurement, shortcuts, resolution)];

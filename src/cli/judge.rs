@@ -80,7 +80,7 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
     }];
     let scratch = Scratch::new().map_err(FileError::writing(&std::env::temp_dir()))?;
     let settings = settings(scratch.path())?;
-    let settled = settle_with(&codes, false, &settings, &Quiet);
+    let settled = settle_with(&codes, plan.accepts_resolution(), &settings, &Quiet);
     let measurements = plan.measurements(&settled[0]);
     let planned = measurements.len();
     let judgements = Campaign::new(&codes, &settings, &Quiet).carry_out(measurements);

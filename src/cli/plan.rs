@@ -1,6 +1,6 @@
 //! `tristack plan`.
 
-use super::options::{CodeParser, Format};
+use super::options::{CodeParser, Format, ResolutionOptions};
 use super::out::Out;
 use super::stack_set::StackSet;
 use super::{CliError, ExitStatus};
@@ -39,6 +39,8 @@ pub(super) struct Arguments {
     code: Code,
     #[command(flatten)]
     stacks: StackSet,
+    #[command(flatten)]
+    resolution: ResolutionOptions,
     /// Directory for plan.json, the lists and the directories of the runs: a new or empty one, or that of an earlier plan
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
@@ -111,7 +113,7 @@ fn rows(arguments: &Arguments, earlier: Option<&Plan>) -> Result<Vec<PlannedRow>
         .stacks
         .measurements(&[code.unmeasured("")], code.law().power)?
     {
-        let row = PlannedRow::of(&measurement);
+        let row = PlannedRow::of(&arguments.resolution.accepted(measurement));
         if !rows.contains(&row) {
             rows.push(row);
         }

@@ -1,6 +1,8 @@
 //! The stacks of a crosscheck on the command line.
 
-use super::options::{FRICTIONS, Friction, STIFFNESSES, StackOptions, Stiffness, Values, as_flag};
+use super::options::{
+    FRICTIONS, Friction, ResolutionOptions, STIFFNESSES, StackOptions, Stiffness, Values, as_flag,
+};
 use crate::code::{Code, SettledCode};
 use crate::model::{InvalidValue, Power, Stack};
 use crate::output::friction;
@@ -199,14 +201,10 @@ fn filtered<Q>(
 pub(super) fn with_options(
     measurement: Measurement,
     shortcuts: bool,
-    resolution: Option<f64>,
+    resolution: &ResolutionOptions,
 ) -> Measurement {
-    let measurement = match shortcuts {
+    resolution.accepted(match shortcuts {
         true => measurement.shortened(),
         false => measurement,
-    };
-    match resolution {
-        Some(resolution) => measurement.accepting(resolution),
-        None => measurement,
-    }
+    })
 }

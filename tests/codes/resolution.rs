@@ -1,6 +1,6 @@
 //! Codes in single precision, and codes that print few digits, judged to what they resolve: copies of the Python example.
 
-use crate::schemes::{changed, rows};
+use crate::schemes::{changed, make_elsewhere, rows};
 
 /// Positions, velocities and springs of 32 bits.
 const STATE: [[&str; 2]; 3] = [
@@ -72,4 +72,26 @@ fn a_code_is_judged_to_what_it_resolves_where_that_is_accepted() {
         assert_eq!(status, 2, "{name}: {messages}");
         assert_eq!(judged[0]["verdict"], "differs", "{name}: {messages}");
     }
+}
+
+/// The resolution stands in the plan, and the walls are planned for what the micro-tests show.
+#[test]
+fn a_plan_carries_the_resolution_to_the_judge() {
+    let bench = changed(STATE.iter().copied());
+    make_elsewhere(&bench, "--mu 0.2 --stiffness 100 --resolution 1e-2");
+    let (status, judged, messages) = rows(&bench, "judge away --format json");
+    assert_eq!((status, judged.len()), (0, 1), "{messages}");
+    assert_eq!(judged[0]["verdict"], "agrees", "{messages}");
+
+    let plan = bench.path("away/plan.json");
+    let text = std::fs::read_to_string(&plan).expect("a plan");
+    let wrong = text.replace("\"resolution\": 0.01", "\"resolution\": 7.0");
+    assert_ne!(wrong, text);
+    std::fs::write(&plan, wrong).expect("it can be written");
+    let output = bench.tristack("judge away").output().expect("it runs");
+    let told = String::from_utf8_lossy(&output.stderr);
+    assert!(
+        told.contains("`resolution` is 7; accepted is 1e-5 to 0.1"),
+        "{told}"
+    );
 }

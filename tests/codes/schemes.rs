@@ -146,15 +146,13 @@ fn check_names_schemes_in_remarks_alone() {
     }
 }
 
-/// The micro-tests with shorter steps are planned too, and those that the first ones share with them are not waited for.
-#[test]
-fn a_scheme_that_converges_is_judged_by_files_alone() {
-    let bench = bench(&scheme(TEXTBOOK_VERLET), &[]);
-    let plan = "plan --codes ./mydem --mu 0.3 --stiffness 100 --out away";
+/// Plans `stacks` of the code in the directory `away` and starts what is planned, as long as runs follow from results.
+pub fn make_elsewhere(bench: &Bench, stacks: &str) {
+    let plan = format!("plan --codes ./mydem {stacks} --out away");
     // Two rounds at each time step, before and after the runs of the stack.
     let mut rounds = 0..24;
     let is_whole = rounds.any(|_| {
-        let output = bench.tristack(plan).output().expect("it runs");
+        let output = bench.tristack(&plan).output().expect("it runs");
         let told = String::from_utf8(output.stdout).expect("text");
         let is_whole = told.contains("to do: 0 runs");
         if !is_whole {
@@ -165,6 +163,13 @@ fn a_scheme_that_converges_is_judged_by_files_alone() {
         is_whole
     });
     assert!(is_whole);
+}
+
+/// The micro-tests with shorter steps are planned too, and those that the first ones share with them are not waited for.
+#[test]
+fn a_scheme_that_converges_is_judged_by_files_alone() {
+    let bench = bench(&scheme(TEXTBOOK_VERLET), &[]);
+    make_elsewhere(&bench, "--mu 0.3 --stiffness 100");
     let (status, judged, messages) = rows(&bench, "judge away --format json");
     assert_eq!((status, judged.len()), (0, 1), "{messages}");
     assert_eq!(judged[0]["verdict"], "agrees", "{messages}");

@@ -2,6 +2,7 @@
 
 use super::convention::{ROUNDS, converged, settled_by_files};
 use super::yield_force::{Measurement, Method, planned};
+use super::{MAX_TOLERANCE, RESOLUTIONS};
 use crate::code::{Code, FailureKind, PlannedRun, PreparedRun, ResultFiles, SettledCode, TaskKind};
 use crate::files::{FileError, Links, parse_json, read_bounded};
 use crate::model::{ContactTest, InvalidValue, Stack, exact};
@@ -24,6 +25,9 @@ pub struct PlannedRow {
     pub stack: Stack,
     /// How its yield force is read.
     pub method: Method,
+    /// The largest uncertainty with which the force agrees, in units of the load on the floor; the usual one if absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub resolution: Option<f64>,
 }
 
 /// Everything that one code is to run elsewhere.
@@ -79,6 +83,12 @@ impl Plan {
     fn check(&self) -> Result<(), String> {
         for row in &self.rows {
             row.stack.validate().map_err(|error| error.to_string())?;
+            if let Some(own) = row.resolution.filter(|own| !RESOLUTIONS.contains(own)) {
+                let (least, most) = RESOLUTIONS.into_inner();
+                return Err(format!(
+                    "`resolution` is {own}; accepted is {least:e} to {most}"
+                ));
+            }
         }
         self.runs.iter().try_for_each(PlannedRun::check)
     }
@@ -97,7 +107,9 @@ impl Plan {
         version: Option<String>,
     ) -> Result<(Self, Vec<PreparedRun>), InvalidValue> {
         let (mut prepared, further) = micro_tests(code, root)?;
-        let settled = code.as_declared().or_else(|| {
+        // What single precision resolves, the micro-tests show.
+        let declared = code.as_declared().filter(|_| !accepts_resolution(&rows));
+        let settled = declared.or_else(|| {
             let runs: Vec<PlannedRun> = prepared.iter().map(|one| one.run.clone()).collect();
             settled_by_files(&ResultFiles::new(code.clone(), "", root, &runs))
         });
@@ -126,6 +138,11 @@ impl Plan {
             runs,
         };
         Ok((plan, prepared))
+    }
+
+    /// Whether a row accepts what the code resolves, for which its micro-tests are read first.
+    pub fn accepts_resolution(&self) -> bool {
+        accepts_resolution(&self.rows)
     }
 
     /// The measurements of the rows by `code`.
@@ -167,13 +184,18 @@ impl PlannedRow {
         Self {
             stack: measurement.stack,
             method: measurement.method,
+            resolution: Some(measurement.resolution).filter(|own| *own > MAX_TOLERANCE),
         }
     }
 
     fn measurement(&self, code: &SettledCode) -> Measurement {
         let power = code.name().law().power;
         let convention = code.stack_convention(power, self.stack.bodies);
-        planned(code, &self.stack, convention, self.method)
+        let measurement = planned(code, &self.stack, convention, self.method);
+        match self.resolution {
+            Some(resolution) => measurement.accepting(resolution),
+            None => measurement,
+        }
     }
 
     /// The runs of the row, in directories named after the stack and the number of the run in its measurement.
@@ -187,6 +209,10 @@ impl PlannedRow {
         });
         runs.collect()
     }
+}
+
+fn accepts_resolution(rows: &[PlannedRow]) -> bool {
+    rows.iter().any(|row| row.resolution.is_some())
 }
 
 /// The micro-tests of all rounds that can be planned already, and whether further rounds follow: the results of a

@@ -22,6 +22,6 @@ pub mod yield_force;
 pub use elsewhere::{PLAN, Plan, PlannedRow};
 pub use pipeline::{Campaign, Evaluation, Judged, Source, Study};
 pub(crate) use tolerance::ROUNDING;
-pub use tolerance::{MAX_TOLERANCE, MIN_TOLERANCE, tolerance};
+pub use tolerance::{MAX_TOLERANCE, MIN_TOLERANCE, RESOLUTIONS, tolerance};
 pub(crate) use verdict::Ground;
 pub use verdict::{Cause, Grounds, Verdict};

@@ -11,6 +11,9 @@ pub const MIN_TOLERANCE: f64 = 1e-7;
 /// codes is worth the name at 1e-5. An uncertainty above it decides nothing.
 pub const MAX_TOLERANCE: f64 = 1e-5;
 
+/// Resolutions that can be accepted: a yield force that is known to a tenth of the load says little enough.
+pub const RESOLUTIONS: std::ops::RangeInclusive<f64> = MAX_TOLERANCE..=0.1;
+
 /// The tolerance for an uncertainty, both relative to the load on the floor: the uncertainty itself, but at least
 /// [`MIN_TOLERANCE`] and at most the `largest` that is accepted.
 pub fn tolerance(uncertainty: f64, largest: f64) -> f64 {

@@ -71,6 +71,7 @@ pub fn crosscheck(judgements: &[Judgement]) -> DataTable<'_> {
     .shown_as("model form", relative)
     .dispensable(2)
     .verdict(|row| row.verdict())
+    .cause(|row| row.grounds.cause())
     .rows(judgements)
 }
 

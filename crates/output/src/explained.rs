@@ -6,7 +6,6 @@ use super::{budget, crosscheck};
 use crate::model::{Case, Preparation};
 use crate::runs::RunSummary;
 use crate::series::MechanicalLaw;
-use crate::study::Cause;
 use crate::study::yield_force::{Evidence, Judgement, TwinForce};
 
 /// A judgement, the same force from runs with more digits, and what the identity of an installed code covers.
@@ -160,8 +159,7 @@ fn grounds<'a>(rows: impl IntoIterator<Item = Row<'a>>) -> DataTable<'a> {
         Evidence::of(row).does_not_prove()
     })
     .means("what that evidence does not prove")
-    .text("cause", |(row, ..)| row.grounds.cause().map(Cause::as_str))
-    .means("the kind of reason for which the row is inconclusive; absent where it is not")
+    .cause(|(row, ..)| row.grounds.cause())
     .text("notes", |(row, ..)| row.notes().join("; "))
     .means("notes on the verdict")
     .text("identity", |(.., coverage)| {

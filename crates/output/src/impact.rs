@@ -102,6 +102,7 @@ pub fn impacts(judgements: &[ImpactJudgement]) -> DataTable<'_> {
     .shown_as("tolerance", one_digit)
     .dispensable(2)
     .verdict(|row| row.verdict())
+    .cause(|row| row.grounds.cause())
     .rows(judgements)
 }
 

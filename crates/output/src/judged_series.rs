@@ -46,6 +46,7 @@ fn verdict(judged: Option<&JudgedSeries>) -> DataTable<'_> {
     .means("largest error that agrees, if the whole uncertainty is known")
     .shown_as("tolerance", small)
     .verdict(|row| row.grounds.verdict())
+    .cause(|row| row.grounds.cause())
     .rows(judged)
 }
 

@@ -5,7 +5,7 @@ use super::{DataTable, Value};
 use crate::code::{Code, KnownConvention};
 use crate::model::{Arms, HistoryUpdate, Law, Stack};
 use crate::number::{friction, or_dash};
-use crate::study::{Source, Verdict};
+use crate::study::{Cause, Source, Verdict};
 use serde::Serialize;
 use std::borrow::Cow;
 use std::rc::Rc;
@@ -340,6 +340,12 @@ impl<'a, R: 'a> Columns<'a, R> {
             .means(meaning)
             .shown("verdict")
             .with_verdicts()
+    }
+
+    /// Declares the column of the kind of reason for which a row is inconclusive.
+    pub(crate) fn cause(self, cause: impl Fn(&R) -> Option<Cause> + 'a) -> Self {
+        self.text("cause", move |row| cause(row).map(Cause::as_str))
+            .means("the kind of reason for which the row is inconclusive; absent where it is not")
     }
 
     /// Completes the table with these `rows`.

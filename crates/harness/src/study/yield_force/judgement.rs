@@ -222,9 +222,13 @@ impl<'a> Reader<'a> {
         let allowed = tolerance(relative, self.measurement.resolution);
         let is_coarse = Verdict::of(error, relative, allowed) == Verdict::Inconclusive;
         let note = is_coarse.then(|| {
-            format!(
-                "too coarse: its uncertainty is {relative:.1e} of the load, and may be {allowed:.1e}"
-            )
+            // Two numbers that differ are not told in the same digits.
+            let two = |digits: usize| [relative, allowed].map(|one| format!("{one:.digits$e}"));
+            let mut told = (1..=5).map(two);
+            let [relative, allowed] = told
+                .find(|[one, other]| one != other)
+                .unwrap_or_else(|| two(1));
+            format!("too coarse: its uncertainty is {relative} of the load, and may be {allowed}")
         });
         self.grounds.compare(error, relative, allowed, note);
     }

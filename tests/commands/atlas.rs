@@ -388,6 +388,7 @@ fn every_property_has_one_meaning() {
         unused,
         [
             &"force_lag",
+            &"limit_damping_share",
             &"local_damping",
             &"normal_stiffness_exponent",
             &"rolling_couple",

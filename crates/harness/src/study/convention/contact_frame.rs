@@ -26,6 +26,8 @@ pub struct ContactRow {
     /// Component of the force of spring and friction along the normal, if the spring does not turn with its contact;
     /// 0 in a row as read.
     pub lift: f64,
+    /// The spring's part of the normal force, if Coulomb's limit counts that alone; `None` in a row as read.
+    pub limiting_part: Option<f64>,
     /// Torque on cylinder 1.
     pub torque: f64,
     /// Torque on cylinder 2.
@@ -47,6 +49,11 @@ impl ContactRow {
     /// Magnitude of the force of spring and friction.
     pub fn friction_force(&self) -> f64 {
         self.tangential_force.hypot(self.lift)
+    }
+
+    /// The normal force that Coulomb's limit counts.
+    pub fn limiting_force(&self) -> f64 {
+        self.limiting_part.unwrap_or(self.normal_force)
     }
 
     /// The same row with this part of its normal force as `lift`.
@@ -129,6 +136,7 @@ fn contact_row(
         normal_force: along(one.force),
         tangential_force: across(one.force),
         lift: 0.0,
+        limiting_part: None,
         torque: one.torque,
         other_torque: two.torque,
         wall_force: row.wall_force,

@@ -52,6 +52,9 @@ pub const LOCAL_DAMPING: &str = "local_damping";
 /// Name of the couple that resists rolling, over the normal force, without the kind of contact.
 pub const ROLLING_COUPLE: &str = "rolling_couple";
 
+/// Name of the share of the normal damping in the normal force that Coulomb's limit counts, without the kind of contact.
+pub const LIMIT_DAMPING_SHARE: &str = "limit_damping_share";
+
 /// Name of the stiffness of the tangential spring, without the kind of contact.
 pub const TANGENTIAL_STIFFNESS: &str = "tangential_stiffness";
 
@@ -134,6 +137,12 @@ impl Finding {
         if let Some(kind) = of_kind(ROLLING_COUPLE) {
             return Some(format!(
                 "{kind}: a couple of {measured:.2e} r times the normal force resists rolling, which the model does not have"
+            ));
+        }
+        if let Some(kind) = of_kind(LIMIT_DAMPING_SHARE) {
+            return Some(format!(
+                "{kind}: Coulomb's limit is μ times the spring's part of the normal force alone; in the model it counts the \
+                 damping, too"
             ));
         }
         let kind = of_kind(TANGENTIAL_STIFFNESS).filter(|_| measured == 0.0)?;

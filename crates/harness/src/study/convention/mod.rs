@@ -36,7 +36,8 @@ mod spring_shape;
 mod tangential;
 
 pub(crate) use convergence::{VANISHING, converged};
-pub(crate) use finding::{DAMPING_VELOCITY_LAG, FORCE_LAG, OVERLAP_LEAD};
+pub(crate) use experiments::turning;
+pub(crate) use finding::{DAMPING_VELOCITY_LAG, FORCE_LAG, LIMIT_DAMPING_SHARE, OVERLAP_LEAD};
 pub use finding::{Finding, StepEffect, TOLERANCE, step_effects};
 pub use measured::in_single_precision;
 pub use measured::{
@@ -55,5 +56,6 @@ pub use passport_file::{
 pub(crate) use probe::ROUNDS;
 pub use probe::probe;
 pub(crate) use regression::fit_rows;
+pub(crate) use rounding::Rounding;
 pub(crate) use settle::settled_by_files;
 pub use settle::{Settling, settle, settled_by};

@@ -53,9 +53,14 @@ impl LinearNormalLaw {
     /// The normal force that the law gives in a row, however much of the reported force is lift.
     pub fn force(&self, row: &ContactRow) -> f64 {
         let (dt, speed) = (row.time_step, row.separation_speed);
-        let overlap = row.overlap - self.overlap_lead.value * dt * speed;
         let reported = row.normal_force + row.lift;
-        self.stiffness.value * overlap - self.damping.value * speed - self.lag_rate * dt * reported
+        self.spring_part(row) - self.damping.value * speed - self.lag_rate * dt * reported
+    }
+
+    /// The spring's part of that force.
+    pub fn spring_part(&self, row: &ContactRow) -> f64 {
+        let lead = self.overlap_lead.value * row.time_step;
+        self.stiffness.value * (row.overlap - lead * row.separation_speed)
     }
 }
 

@@ -3,7 +3,7 @@
 use super::clock::Clock;
 use super::contact_frame::{ContactRow, contact_rows};
 use super::experiments::{self, ContactKind};
-use super::finding::{Property, ROLLING_COUPLE, TANGENTIAL_STIFFNESS};
+use super::finding::{LIMIT_DAMPING_SHARE, Property, ROLLING_COUPLE, TANGENTIAL_STIFFNESS};
 use super::linear_form::sticking;
 use super::normal::{self, LinearNormalLaw, pull};
 use super::other_model::{has_no_spring, rolling_couple};
@@ -11,7 +11,7 @@ use super::power::NormalPowerLaw;
 use super::properties::{growing_properties, power_properties};
 use super::properties::{growth, normal_properties, sliding_properties, tangential_properties};
 use super::regression::{Measured, fit};
-use super::sliding::{MARGIN, SlidingLaw, is_at_limit, largest_operand};
+use super::sliding::{MARGIN, SlidingLaw, is_at_limit, is_limited_by, largest_operand};
 use super::tangential::TangentialLaw;
 use crate::model::{ContactConvention, ContactTest};
 use crate::series::Motion;
@@ -86,7 +86,19 @@ impl MicroTests {
             Some((lifted, rows, _)) => (lifted, tangential, rows),
             None => (normal, tangential.without_lift(), rows),
         };
+        // Nothing slides on the wall.
+        let limited_by_spring = rows
+            .get(SLIDING)
+            .is_some_and(|sliding| is_limited_by(&normal.limited_by_spring(sliding), sliding));
+        let rows = match limited_by_spring {
+            true => rows
+                .iter()
+                .map(|own| normal.limited_by_spring(own))
+                .collect(),
+            false => rows,
+        };
         Laws {
+            limited_by_spring,
             pull: match &normal {
                 Normal::Linear(law) => pull(&rows[SEPARATING], law),
                 Normal::Power(law) => law.pull(&rows[SEPARATING]),
@@ -167,6 +179,23 @@ impl Normal {
         }
     }
 
+    /// The spring's part of that force.
+    fn spring_part(&self, row: &ContactRow) -> f64 {
+        match self {
+            Self::Linear(law) => law.spring_part(row),
+            Self::Power(law) => law.spring_part(row),
+        }
+    }
+
+    /// `rows` whose Coulomb limit counts that part alone.
+    fn limited_by_spring(&self, rows: &[ContactRow]) -> Vec<ContactRow> {
+        let limited = rows.iter().map(|row| ContactRow {
+            limiting_part: Some(self.spring_part(row)),
+            ..*row
+        });
+        limited.collect()
+    }
+
     /// Sum of the squared deviations of the normal forces from the law.
     fn left(&self, rows: &[ContactRow]) -> f64 {
         let off = rows.iter().map(|row| row.normal_force - self.force(row));
@@ -181,6 +210,8 @@ pub struct Laws {
     pull: Measured,
     tangential: TangentialLaw,
     rows: Vec<Vec<ContactRow>>,
+    /// Whether Coulomb's limit counts the spring's part of the normal force alone.
+    limited_by_spring: bool,
 }
 
 impl Laws {
@@ -212,6 +243,10 @@ impl Laws {
             let (row, ratio) = largest_operand(gentle, &self.tangential, share)?;
             let slides = |(test, motion): &TestedMotion| {
                 let rows = contact_rows(self.plan.kind, test, motion, clock);
+                let rows = match self.limited_by_spring {
+                    true => self.normal.limited_by_spring(&rows),
+                    false => rows,
+                };
                 let rows = self.tangential.with_lift(&rows);
                 rows.get(row).map(is_at_limit)
             };
@@ -226,7 +261,7 @@ impl Laws {
     fn limit_over_damping(&self, row: usize, ratio: f64) -> f64 {
         let row = &self.rows[GENTLE][row];
         let damping = self.tangential.damping_at(row) * self.tangential.surface_speed(row);
-        row.friction * row.normal_force * ratio / damping.abs()
+        row.friction * row.limiting_force() * ratio / damping.abs()
     }
 
     /// All properties of the kind; `near_slip` are the motions to the slip threshold.
@@ -267,6 +302,10 @@ impl Laws {
         }
         let test = &self.plan.tests[SLIDING];
         properties.extend(sliding_properties(kind, &sliding, share, test));
+        if self.limited_by_spring {
+            let none = Measured::new(0.0, 0.0);
+            properties.push(Property::at(kind, LIMIT_DAMPING_SHARE, none, 1.0));
+        }
         properties
     }
 

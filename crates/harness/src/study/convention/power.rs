@@ -61,6 +61,11 @@ impl NormalPowerLaw {
         self.stiffness.value * parts[0] + self.damping.value * parts[1]
     }
 
+    /// The spring's part of that force.
+    pub fn spring_part(&self, row: &ContactRow) -> f64 {
+        self.stiffness.value * parts(row, self.mass, self.at)[0]
+    }
+
     /// Growth of the stiffness dN/dδ in the best fit.
     pub fn stiffening(&self) -> Growth {
         Growth {

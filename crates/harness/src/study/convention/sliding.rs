@@ -35,7 +35,7 @@ impl SlidingLaw {
         let terms: Vec<([f64; 2], f64)> = sliding
             .map(|(row, _)| {
                 let damping = law.damping_at(row) * law.surface_speed(row).abs();
-                ([row.normal_force, damping], row.friction_force())
+                ([row.limiting_force(), damping], row.friction_force())
             })
             .collect();
         let [friction, damping] = fit(&terms);
@@ -47,10 +47,17 @@ impl SlidingLaw {
     }
 }
 
+/// Whether Coulomb's limit counts a part of the normal force alone in rows of one motion: they slide with the same ratio to
+/// that part, and with none to the whole force. `by_part` are the same rows with that part.
+pub fn is_limited_by(by_part: &[ContactRow], rows: &[ContactRow]) -> bool {
+    let slides = |rows| slides(rows).contains(&true);
+    slides(by_part) && !slides(rows)
+}
+
 /// Marks the rows that slide: those with the most frequent ratio of forces.
 fn slides(rows: &[ContactRow]) -> Vec<bool> {
     let ratios = rows.iter();
-    let ratios = ratios.map(|row| row.friction_force() / row.normal_force);
+    let ratios = ratios.map(|row| row.friction_force() / row.limiting_force());
     let ratios: Vec<f64> = ratios.collect();
     let same = |left: f64, right: f64| (left - right).abs() < SAME_RATIO * right;
     let like = |ratio: f64| ratios.iter().filter(|&&other| same(other, ratio)).count();
@@ -110,7 +117,7 @@ pub fn largest_operand(
     let ratio = |row: &ContactRow| {
         let damping = law.damping_at(row) * law.surface_speed(row);
         let operand = law.spring_force(row) - operand_damping * damping;
-        operand.hypot(row.lift) / (row.friction * row.normal_force)
+        operand.hypot(row.lift) / (row.friction * row.limiting_force())
     };
     let ratios = rows.iter().map(ratio).enumerate();
     ratios.max_by(|(_, left), (_, right)| left.total_cmp(right))
@@ -118,6 +125,6 @@ pub fn largest_operand(
 
 /// Whether a row is at the limit rather than a [`MARGIN`] below or above it.
 pub fn is_at_limit(row: &ContactRow) -> bool {
-    let limit = row.friction * row.normal_force;
+    let limit = row.friction * row.limiting_force();
     (row.friction_force() / limit - 1.0).abs() < 0.5 * MARGIN
 }

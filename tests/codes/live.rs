@@ -6,6 +6,7 @@ use crate::common::{
     Bench, OWN_PROGRAM, are_as_on_file, assert_only, code_folder, json_rows, network, project,
     recording, released_program,
 };
+use rayon::prelude::*;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Output;
@@ -13,6 +14,7 @@ use tristack::code::{Code, FailureKind, Interrupt, RunContext};
 use tristack::dem::compress_stack;
 use tristack::model::{Case, HistoryUpdate, Power, Preparation, SideWalls, Stack};
 use tristack::series::{Sample, Series, YieldEstimates};
+use tristack::study::check::{Outcome, seen_elsewhere};
 use tristack::study::yield_force::plan;
 
 fn named(name: &str) -> Code {
@@ -256,6 +258,26 @@ fn all_installed_codes_mean_by_a_contact_what_their_adapter_declares() {
         are_as_on_file(&bench.path("filed")) > 0,
         "native is on file"
     );
+}
+
+/// Contacts come and go in every law and style as they do elsewhere, mirrored, exchanged, turned and begun anew.
+#[test]
+fn contacts_of_all_installed_codes_come_and_go_alike_everywhere() {
+    let laws = [Power::Linear, Power::Hertz];
+    let codes = laws.map(|law| common::installed(&Code::with_power(law)[1..]));
+    let place = tempfile::tempdir().expect("a directory");
+    codes.concat().par_iter().for_each(|code| {
+        let installed = code.find().expect("it is installed");
+        let kinds = [false, true].into_iter();
+        for in_space in kinds.filter(|in_space| !in_space || code.declaration().in_space) {
+            let directory = place.path().join(format!("{code}-{in_space}"));
+            let nobody = Interrupt::new();
+            let context = RunContext::new(&directory, &nobody);
+            let item = seen_elsewhere(installed.as_ref(), in_space, &context);
+            let item = item.unwrap_or_else(|failure| panic!("{code}: {failure}"));
+            assert_eq!(item.outcome, Outcome::Passed, "{code}: {item:?}");
+        }
+    });
 }
 
 /// A code whose author says nothing of its convention is judged by what is measured, as if that had been declared.

@@ -3,11 +3,12 @@
 use super::evidence::{Evidence, MOVED, ROUNDING, SAME};
 use super::micro::{self, Micro};
 use super::report::{Grade, Item, Outcome};
-use super::stack::{self, Scheme, at_first_sight};
-use super::table::usual;
-use super::{equations, events, search, written};
+use super::stack::{self, Scheme, at_first_sight, in_single_precision};
+use super::table::{MOST_CAUSES, usual};
+use super::{elsewhere, equations, events, search, written};
 use crate::model::{Case, ContactConvention};
 use crate::series::Series;
+use crate::study::convention::Finding;
 
 /// Largest distance of motions that have the same law and integrator: rounding, which single contacts do not amplify.
 const SAME_MOTION: f64 = 1e-9;
@@ -87,6 +88,8 @@ pub(super) fn items(
     };
     let plain = stack.and_then(|(series, case)| at_first_sight(series, &case.stack));
     let plain = plain.filter(|_| !located.is_known);
+    // Single precision explains what its rounding does; the equations and the micro-tests allow for that.
+    let single = stack.and_then(|(series, _)| in_single_precision(series));
     for item in items.iter_mut().filter(|item| is_to_be_explained(item)) {
         if micro::is_step_effect(item) {
             // What vanishes with the time step needs no place, but a name if there is one.
@@ -103,10 +106,20 @@ pub(super) fn items(
             item.causes.clone_from(&causes);
         } else if let Some(plain) = plain.as_ref().filter(|_| !is_declaration) {
             item.causes = vec![plain.clone()];
+        } else if item.name == elsewhere::NAME {
+            // The equations tell what is wrong, and the views of a motion where.
+            let place = if located.is_known {
+                located.texts.len()
+            } else {
+                0
+            };
+            item.causes
+                .splice(0..0, located.texts[..place].iter().cloned());
+            item.causes.extend_from_slice(&located.texts[place..]);
         } else if !located.texts.is_empty() && !is_declaration {
             item.causes.clone_from(&located.texts);
         } else if item.causes.is_empty() {
-            item.causes = vec![usual(item.name)];
+            item.causes = vec![single.clone().unwrap_or_else(|| usual(item.name))];
         }
     }
     items
@@ -141,7 +154,15 @@ fn located(known: &Known, stack: Option<Compressed>, micro: Option<&Micro>) -> L
     let Some(micro) = micro else {
         return Located::default();
     };
+    let findings = micro.findings.findings.iter();
+    let models: Vec<String> = findings.filter_map(Finding::other_model).collect();
     match failing_equations(micro) {
+        // What is known of the model says more than which equation fails.
+        own if !models.is_empty() && !own.as_ref().is_some_and(|own| own.is_explained) => Located {
+            texts: models.into_iter().take(MOST_CAUSES).collect(),
+            is_known: true,
+            are_known: true,
+        },
         Some(own) if !own.texts.is_empty() => Located {
             texts: own.texts,
             is_known: own.is_explained,
@@ -166,7 +187,8 @@ fn located(known: &Known, stack: Option<Compressed>, micro: Option<&Micro>) -> L
 fn failing_equations(micro: &Micro) -> Option<equations::Failing> {
     let leaps = (micro.findings.settled.velocity_lag - LEAPFROG_LAG).abs() < SAME_MOTION;
     let conventions = micro.conventions().into_iter();
-    let failing = conventions.map(|own| equations::failing(&micro.answers, own, leaps));
+    let is_single = !micro.findings.single.is_empty();
+    let failing = conventions.map(|own| equations::failing(&micro.answers, own, leaps, is_single));
     failing.min_by_key(|own| (!own.is_explained, own.texts.len()))
 }
 

@@ -1,6 +1,7 @@
 //! The parameters of a code, measured by the micro-tests of the probe. The task prescribes parameters, so another
 //! value is a mistake; a convention is the code's own choice.
 
+use super::elsewhere::Elsewhere;
 use super::factor::{is_about, of_friction};
 use super::reaction::action_and_reaction;
 use super::report::{Grade, Item, Outcome};
@@ -9,8 +10,8 @@ use crate::code::{Code, ConventionKey};
 use crate::model::ContactConvention;
 use crate::runs::{Answer, ProbeRecord};
 use crate::study::convention::{
-    DAMPING_VELOCITY_LAG, FORCE_LAG, Finding, Findings, NO_CONTACT, OVERLAP_LEAD, TOLERANCE,
-    forces_are_late, probe, read_probe, step_effects,
+    DAMPING_VELOCITY_LAG, FORCE_LAG, Finding, Findings, LIMIT_DAMPING_SHARE, NO_CONTACT,
+    OVERLAP_LEAD, TOLERANCE, forces_are_late, probe, read_probe, step_effects,
 };
 
 /// Largest relative deviation of numbers that have few digits.
@@ -25,7 +26,7 @@ const PARAMETERS: [(&str, &[&str]); 7] = [
     ("tangential stiffness", &["tangential_stiffness"]),
     ("damping", &["normal_damping", "tangential_damping"]),
     ("radius and torque", &["radius", "spring_radius"]),
-    ("friction", &["friction"]),
+    ("friction", &["friction", LIMIT_DAMPING_SHARE]),
     ("force of the top wall", &["reported_force"]),
 ];
 const MOMENTS: [&str; 3] = [OVERLAP_LEAD, DAMPING_VELOCITY_LAG, FORCE_LAG];
@@ -46,6 +47,7 @@ pub(super) struct Micro {
     pub findings: Findings,
     pub answers: Vec<Answer>,
     reaction: Item,
+    elsewhere: Option<Item>,
 }
 
 impl Micro {
@@ -68,7 +70,18 @@ impl Micro {
             findings,
             answers,
             reaction,
+            elsewhere: None,
         })
+    }
+
+    /// The same with what the code does in other places, whose motions count where they show a mistake: those that look the
+    /// same elsewhere are fast, so that terms of third order in a step show, which codes mean differently.
+    pub fn with(mut self, seen: Elsewhere) -> Self {
+        if seen.item.outcome == Outcome::Failed {
+            self.answers.extend(seen.answers);
+        }
+        self.elsewhere = Some(seen.item);
+        self
     }
 
     /// Whether the forces that move the bodies are late.
@@ -103,6 +116,7 @@ impl Micro {
         let parameters = parameters.map(|(name, endings)| self.item(name, endings));
         let mut items: Vec<Item> = parameters.collect();
         items.push(self.reaction.clone());
+        items.extend(self.elsewhere.clone());
         items.push(self.item(MOMENTS_NAME, &MOMENTS));
         items.push(self.declaration());
         items

@@ -4,6 +4,7 @@
 //! written wrongly, and the result is compared with what the code has written.
 
 mod diagnosis;
+mod elsewhere;
 mod equations;
 mod events;
 mod evidence;
@@ -112,6 +113,19 @@ pub fn check(code: &Code, folder: &str, context: &RunContext) -> io::Result<Repo
     Ok(report)
 }
 
+/// Checks whether motions in which contacts come and go look the same elsewhere, by an installed `code`, in the plane or
+/// `in_space`.
+///
+/// # Errors
+/// If the code fails.
+pub fn seen_elsewhere(
+    code: &dyn InstalledCode,
+    in_space: bool,
+    context: &RunContext,
+) -> Result<Item, Box<Failure>> {
+    elsewhere::of_code(code, in_space, context).map(|seen| seen.item)
+}
+
 /// Keeps the runs of a failed check with their output, and names the kept directory in the items of `report`.
 fn keep(place: &Scratch, report: &mut Report) -> io::Result<()> {
     let kept = temporary(EVIDENCE.as_ref()).tempdir()?;
@@ -179,6 +193,7 @@ impl Check<'_> {
         let compared = diagnosis::items(stack, declared, micro.as_ref(), &finer);
         self.report.items.extend(compared);
         let is_late = micro.as_ref().is_some_and(Micro::forces_are_late);
+        self.spheres_elsewhere(installed.as_ref());
         self.spheres(installed.as_ref(), is_late);
         if let Some(run) = &run {
             let again = self.run(installed.as_ref(), &case, "again");
@@ -402,6 +417,38 @@ impl Check<'_> {
         self.try_run(installed, case, name).ok()
     }
 
+    /// Adds to `micro` what the code does in other places.
+    fn elsewhere(&mut self, installed: &dyn InstalledCode, micro: Micro) -> Micro {
+        let directory = self.directory.join("elsewhere");
+        let context = RunContext {
+            directory: &directory,
+            ..*self.context
+        };
+        match elsewhere::of_code(installed, false, &context) {
+            Ok(seen) => micro.with(seen),
+            Err(failure) => {
+                self.fail(elsewhere::NAME, Some(&failure), None);
+                micro
+            }
+        }
+    }
+
+    /// Adds what contacts of spheres do in other places.
+    fn spheres_elsewhere(&mut self, installed: &dyn InstalledCode) {
+        if self.code.check_task(TaskKind::SpheresMotion).is_err() {
+            return;
+        }
+        let directory = self.directory.join("spheres-elsewhere");
+        let context = RunContext {
+            directory: &directory,
+            ..*self.context
+        };
+        match elsewhere::of_code(installed, true, &context) {
+            Ok(seen) => self.add(seen.item),
+            Err(failure) => self.fail(elsewhere::IN_SPACE, Some(&failure), None),
+        }
+    }
+
     /// Asks the micro-tests. Returns `None` if they fail, and `Some(None)` if the code has no task for them or its
     /// answers cannot be read.
     fn micro_tests(&mut self, installed: &dyn InstalledCode) -> Option<Option<Micro>> {
@@ -422,7 +469,8 @@ impl Check<'_> {
                     record.provenance.seconds
                 );
                 self.add(Item::passed(Grade::Mandatory, NAME, found));
-                Some(Micro::of(&self.code, record))
+                let micro = Micro::of(&self.code, record);
+                Some(micro.map(|micro| self.elsewhere(installed, micro)))
             }
             Err(failure) => {
                 self.fail(NAME, Some(&failure), None);

@@ -2,13 +2,16 @@
 
 use super::report::{Grade, Item};
 use crate::runs::ProbeRecord;
-use crate::series::BodyRow;
+use crate::series::{BodyRow, ENOUGH_DIGITS};
+use crate::study::convention::Rounding;
 
 const NAME: &str = "action and reaction";
 /// Largest sum of both forces, in units of one of them, that counts as rounding.
 const ROUNDING: f64 = 1e-9;
 /// The same bound for numbers with few digits.
 const GROSS: f64 = 1e-3;
+/// The same bound for numbers of 32 bits: sums of a few forces, each rounded by 6e-8 of it.
+const SINGLE: f64 = 1e-6;
 
 /// Returns the forces of a pair at one moment, if it touches and neither cylinder touches anything else.
 fn forces([one, two]: [BodyRow; 2]) -> Option<[[f64; 2]; 2]> {
@@ -30,12 +33,12 @@ pub(super) fn action_and_reaction(record: &ProbeRecord) -> Item {
     let largest = |value: fn(&[[f64; 2]; 2]) -> f64| pairs.iter().map(value).fold(0.0, f64::max);
     let force = largest(|[one, two]| one[0].hypot(one[1]).max(two[0].hypot(two[1])));
     let sum = largest(|[one, two]| (one[0] + two[0]).hypot(one[1] + two[1]));
-    let few_digits = motions()
-        .map(|motion| motion.most_digits())
-        .max()
-        .unwrap_or(0)
-        < 13;
-    let allowed = if few_digits { GROSS } else { ROUNDING };
+    let rounding = Rounding::of(&motions().collect::<Vec<_>>());
+    let allowed = match (rounding.digits < ENOUGH_DIGITS, rounding.is_single()) {
+        (true, _) => GROSS,
+        (false, true) => SINGLE,
+        (false, false) => ROUNDING,
+    };
     let grade = Grade::Consistency;
     if pairs.is_empty() {
         Item::not_tested(grade, NAME, "no micro-test shows a pair")

@@ -7,7 +7,7 @@ use super::report::{Grade, Item};
 use crate::model::{Case, Stack};
 use crate::series::{
     Deviation, ENOUGH_DIGITS, FloorContact, MechanicalLaw, Mechanics, Sample, Series,
-    YieldEstimates, most_digits,
+    YieldEstimates, is_of_32_bits, most_digits,
 };
 use crate::study::convention::VANISHING;
 
@@ -226,18 +226,21 @@ fn digits(series: &Series, case: &Case) -> Item {
     if digits >= ENOUGH_DIGITS {
         return passed(DIGITS, format!("{digits} of 17"));
     }
-    Item::remark(
-        Grade::Consistency,
-        DIGITS,
-        format!(
+    let printed = YieldEstimates::read(series, case).printed;
+    let found = match printed.is_some_and(|printed| printed.single) {
+        true => "the forces are numbers of 32 bits, of some 7 digits, however many are printed: they cost uncertainty, and may leave a \
+                 verdict inconclusive"
+            .to_owned(),
+        false => format!(
             "the forces are printed with {digits} significant digits; all 17 are asked for (repr() in Python, %.17g in C): \
              fewer cost uncertainty, and may leave a verdict inconclusive"
         ),
-    )
+    };
+    Item::remark(Grade::Consistency, DIGITS, found)
 }
 
 /// Recognises gross mistakes without computing anything: no gravity or one that points upwards, a stack that fell or
-/// collapsed, a wall that never presses, single precision.
+/// collapsed, a wall that never presses.
 pub(super) fn at_first_sight(series: &Series, stack: &Stack) -> Option<String> {
     let rows = series.samples();
     let first = rows.first()?;
@@ -268,16 +271,18 @@ pub(super) fn at_first_sight(series: &Series, stack: &Stack) -> Option<String> {
             stack.kind()
         ));
     }
-    let is_single = |position: f64| f64::from(position as f32) == position;
+    rows.iter().all(|row| row.wall_force == 0.0).then(|| {
+        "the wall never presses: it moves upwards, or not at all, or its force is not read; `wall_speed` is downwards".to_owned()
+    })
+}
+
+/// Says that the positions of a stack are in single precision, if they are.
+pub(super) fn in_single_precision(series: &Series) -> Option<String> {
     let positions = || {
-        let rows = rows.iter();
+        let rows = series.samples().iter();
         rows.flat_map(|row| row.bodies.iter().take(2).flat_map(|body| body.position))
     };
-    if rows.iter().all(|row| row.wall_force == 0.0) {
-        return Some("the wall never presses: it moves upwards, or not at all, or its force is not read; `wall_speed` is \
-                     downwards".to_owned());
-    }
-    (most_digits(positions()) >= ENOUGH_DIGITS && positions().all(is_single)).then(|| {
+    (most_digits(positions()) >= ENOUGH_DIGITS && positions().all(is_of_32_bits)).then(|| {
         "the numbers are those of single precision, some 7 digits: positions, velocities and springs need double precision"
             .to_owned()
     })

@@ -186,7 +186,7 @@ fn csv_has_the_agreed_columns() {
             "stiffness,mu,mu_d,kappa,bodies,code,version,source,pair_torque_arm,pair_kinematic_arm,\
              floor_torque_arm,floor_kinematic_arm,history_update,law_power,history,floor_ratio,floor_kappa,\
              tangential_stiffening,yield_force,uncertainty,reference,reference_force,slip_onset,\
-             slip_onset_uncertainty,reference_onset,peak_force,peak_uncertainty,error,tolerance,model_form,verdict,cause"
+             slip_onset_uncertainty,reference_onset,peak_force,peak_uncertainty,error,tolerance,model_form,cause,verdict"
         )
     );
     assert_eq!(text.lines().count(), 19);

@@ -70,8 +70,8 @@ pub fn crosscheck(judgements: &[Judgement]) -> DataTable<'_> {
     .means(MODEL_FORM)
     .shown_as("model form", relative)
     .dispensable(2)
-    .verdict(|row| row.verdict())
     .cause(|row| row.grounds.cause())
+    .verdict(|row| row.verdict())
     .rows(judgements)
 }
 

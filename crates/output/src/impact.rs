@@ -101,8 +101,8 @@ pub fn impacts(judgements: &[ImpactJudgement]) -> DataTable<'_> {
     .means("largest error that agrees")
     .shown_as("tolerance", one_digit)
     .dispensable(2)
-    .verdict(|row| row.verdict())
     .cause(|row| row.grounds.cause())
+    .verdict(|row| row.verdict())
     .rows(judgements)
 }
 

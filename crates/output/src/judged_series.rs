@@ -45,8 +45,8 @@ fn verdict(judged: Option<&JudgedSeries>) -> DataTable<'_> {
     .number("tolerance", "1", |row| Some(row.grounds.deviation()?.1))
     .means("largest error that agrees, if the whole uncertainty is known")
     .shown_as("tolerance", small)
-    .verdict(|row| row.grounds.verdict())
     .cause(|row| row.grounds.cause())
+    .verdict(|row| row.grounds.verdict())
     .rows(judged)
 }
 

@@ -7,11 +7,15 @@ use super::stack::{self, Scheme, at_first_sight, in_single_precision};
 use super::table::{MOST_CAUSES, usual};
 use super::{elsewhere, equations, events, search, written};
 use crate::model::{Case, ContactConvention};
+use crate::runs::Answer;
 use crate::series::Series;
 use crate::study::convention::Finding;
 
 /// Largest distance of motions that have the same law and integrator: rounding, which single contacts do not amplify.
 const SAME_MOTION: f64 = 1e-9;
+/// Largest distance of motions in which contacts come and go: bodies turn about each other by up to 0.05 rad in a step, and by
+/// the cube of that codes with the same law may differ.
+const OF_THIRD_ORDER: f64 = 1.25e-4;
 /// Prefix of entries for valid rules that tristack does not have.
 const NO_MISTAKE: &str = "no mistake";
 /// Steps by which the velocities of a leapfrog lag behind the positions.
@@ -156,7 +160,7 @@ fn located(known: &Known, stack: Option<Compressed>, micro: Option<&Micro>) -> L
     };
     let findings = micro.findings.findings.iter();
     let models: Vec<String> = findings.filter_map(Finding::other_model).collect();
-    match failing_equations(micro) {
+    match failing_equations(micro, known.others_are_off) {
         // What is known of the model says more than which equation fails.
         own if !models.is_empty() && !own.as_ref().is_some_and(|own| own.is_explained) => Located {
             texts: models.into_iter().take(MOST_CAUSES).collect(),
@@ -183,12 +187,15 @@ fn located(known: &Known, stack: Option<Compressed>, micro: Option<&Micro>) -> L
     }
 }
 
-/// Returns the equations that fail in the micro-tests, under the convention that explains them best.
-fn failing_equations(micro: &Micro) -> Option<equations::Failing> {
+/// Returns the equations that fail in the micro-tests, and in those in which contacts come and go if these count, under
+/// the convention that explains them best.
+fn failing_equations(micro: &Micro, others_count: bool) -> Option<equations::Failing> {
+    let others = micro.others.iter().filter(|_| others_count);
+    let answers: Vec<&Answer> = micro.answers.iter().chain(others).collect();
     let leaps = (micro.findings.settled.velocity_lag - LEAPFROG_LAG).abs() < SAME_MOTION;
     let conventions = micro.conventions().into_iter();
     let is_single = !micro.findings.single.is_empty();
-    let failing = conventions.map(|own| equations::failing(&micro.answers, own, leaps, is_single));
+    let failing = conventions.map(|own| equations::failing(&answers, own, leaps, is_single));
     failing.min_by_key(|own| (!own.is_explained, own.texts.len()))
 }
 
@@ -219,7 +226,7 @@ pub(super) fn of_motions(micro: &Micro) -> Vec<String> {
         }
     });
     let found = each.into_iter().find(|causes| !causes.is_empty());
-    found.unwrap_or_else(|| failing_equations(micro).map_or_else(Vec::new, |own| own.texts))
+    found.unwrap_or_else(|| failing_equations(micro, false).map_or_else(Vec::new, |own| own.texts))
 }
 
 /// The results of a code, compared with those of its twins.
@@ -232,6 +239,8 @@ struct Known {
     has_integrator: bool,
     /// Whether it has its law, too.
     is_exact: bool,
+    /// Whether motions in which contacts come and go show a mistake.
+    others_are_off: bool,
 }
 
 impl Known {
@@ -241,8 +250,6 @@ impl Known {
         let mut motions: Vec<Evidence> = motions
             .map(|answer| Evidence::of_motion(answer, convention))
             .collect();
-        // Largest distance first, so that a mistake that does not fit is soon rejected.
-        motions.sort_by(|one, two| two.before.total_cmp(&one.before));
         let exact = motions
             .iter()
             .filter(|own| own.before < SAME_MOTION)
@@ -258,15 +265,32 @@ impl Known {
             stacks.iter_mut().for_each(|own| own.same = ROUNDING);
             stacks.extend(stack.map(|own| part(own, true)));
             motions.iter_mut().for_each(|own| own.same = ROUNDING);
-        } else if !is_wrong {
+        }
+        let others = micro.map_or(&[][..], |micro| &micro.others).iter();
+        let mut others: Vec<Evidence> = others
+            .map(|answer| Evidence::of_motion(answer, convention))
+            .collect();
+        if is_exact {
+            others.iter_mut().for_each(|own| own.same = OF_THIRD_ORDER);
+        }
+        let differs_elsewhere = micro.is_some_and(Micro::differs_elsewhere);
+        let others_are_off = differs_elsewhere || is_exact && others.iter().any(Evidence::is_off);
+        if is_exact || differs_elsewhere {
+            motions.extend(others);
+        }
+        if !is_exact && !is_wrong {
             // No item shows a mistake in them, so what is far from the twin comes from another integrator.
             motions.retain(|own| !own.is_off());
         }
+        // Largest distance first, so that a mistake that does not fit is soon rejected.
+        let distance = |own: &Evidence| own.before / own.same;
+        motions.sort_by(|one, two| distance(two).total_cmp(&distance(one)));
         Self {
             stacks,
             motions,
             has_integrator,
             is_exact,
+            others_are_off,
         }
     }
 
@@ -297,6 +321,7 @@ impl Known {
             motions,
             has_integrator,
             is_exact,
+            ..
         } = self;
         let law = motions.iter().any(Evidence::is_off);
         let off = stacks.iter().any(Evidence::is_off);

@@ -330,7 +330,7 @@ pub(super) struct Failing {
 /// returned. A code whose velocities lag by half a step `leaps`; then its integration is tested too. What single precision
 /// rounds, where the numbers have it, counts as right.
 pub(super) fn failing(
-    answers: &[Answer],
+    answers: &[&Answer],
     convention: ContactConvention,
     leaps: bool,
     is_single: bool,
@@ -752,7 +752,7 @@ mod tests {
             rows.iter_mut().for_each(&change);
             answer.motion = Motion::new(rows, answer.test.steps).expect("as many rows as before");
         }
-        failing(&answers, convention, true, false).texts
+        failing(&answers.iter().collect::<Vec<_>>(), convention, true, false).texts
     }
 
     #[test]

@@ -48,6 +48,8 @@ pub(super) struct Micro {
     pub answers: Vec<Answer>,
     reaction: Item,
     elsewhere: Option<Item>,
+    /// The motions in which contacts come and go.
+    pub others: Vec<Answer>,
 }
 
 impl Micro {
@@ -71,17 +73,23 @@ impl Micro {
             answers,
             reaction,
             elsewhere: None,
+            others: Vec::new(),
         })
     }
 
-    /// The same with what the code does in other places, whose motions count where they show a mistake: those that look the
-    /// same elsewhere are fast, so that terms of third order in a step show, which codes mean differently.
-    pub fn with(mut self, seen: Elsewhere) -> Self {
-        if seen.item.outcome == Outcome::Failed {
-            self.answers.extend(seen.answers);
+    /// The same with what the code does in other places.
+    pub fn with(self, seen: Elsewhere) -> Self {
+        Self {
+            elsewhere: Some(seen.item),
+            others: seen.answers,
+            ..self
         }
-        self.elsewhere = Some(seen.item);
-        self
+    }
+
+    /// Whether motions do not look the same elsewhere.
+    pub fn differs_elsewhere(&self) -> bool {
+        let item = self.elsewhere.as_ref();
+        item.is_some_and(|item| item.outcome == Outcome::Failed)
     }
 
     /// Whether the forces that move the bodies are late.

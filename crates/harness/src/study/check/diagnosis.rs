@@ -172,7 +172,7 @@ fn located(known: &Known, stack: Option<Compressed>, micro: Option<&Micro>) -> L
             is_known: own.is_explained,
             are_known: own.are_explained,
         },
-        _ if !known.is_exact => Located::default(),
+        _ if !known.is_exact || known.others_are_off => Located::default(),
         _ => {
             let of_stack = stack.zip(known.stacks.first());
             let beginning = of_stack.and_then(|((series, case), first)| {
@@ -241,6 +241,8 @@ struct Known {
     is_exact: bool,
     /// Whether motions in which contacts come and go show a mistake.
     others_are_off: bool,
+    /// Whether those with a single contact show none.
+    single_are_right: bool,
 }
 
 impl Known {
@@ -265,6 +267,9 @@ impl Known {
             stacks.iter_mut().for_each(|own| own.same = ROUNDING);
             stacks.extend(stack.map(|own| part(own, true)));
             motions.iter_mut().for_each(|own| own.same = ROUNDING);
+        } else if !is_wrong {
+            // No item shows a mistake in them, so what is far from the twin comes from another integrator.
+            motions.retain(|own| !own.is_off());
         }
         let others = micro.map_or(&[][..], |micro| &micro.others).iter();
         let mut others: Vec<Evidence> = others
@@ -273,14 +278,11 @@ impl Known {
         if is_exact {
             others.iter_mut().for_each(|own| own.same = OF_THIRD_ORDER);
         }
+        let single_are_right = !motions.iter().any(Evidence::is_off);
         let differs_elsewhere = micro.is_some_and(Micro::differs_elsewhere);
         let others_are_off = differs_elsewhere || is_exact && others.iter().any(Evidence::is_off);
         if is_exact || differs_elsewhere {
             motions.extend(others);
-        }
-        if !is_exact && !is_wrong {
-            // No item shows a mistake in them, so what is far from the twin comes from another integrator.
-            motions.retain(|own| !own.is_off());
         }
         // Largest distance first, so that a mistake that does not fit is soon rejected.
         let distance = |own: &Evidence| own.before / own.same;
@@ -291,6 +293,7 @@ impl Known {
             has_integrator,
             is_exact,
             others_are_off,
+            single_are_right,
         }
     }
 
@@ -321,7 +324,8 @@ impl Known {
             motions,
             has_integrator,
             is_exact,
-            ..
+            others_are_off,
+            single_are_right,
         } = self;
         let law = motions.iter().any(Evidence::is_off);
         let off = stacks.iter().any(Evidence::is_off);
@@ -361,11 +365,15 @@ impl Known {
             let place = stacks[0].beginning();
             causes.extend(place.filter(|own| !own.starts_with(MOVED)));
         }
-        if causes.is_empty() && !law {
+        if causes.is_empty() && off && single_are_right {
+            let place = match others_are_off {
+                true => "where several contacts act at once: ",
+                false => "in the stack, but not in the micro-tests: ",
+            };
             causes = search::explanations(&stacks);
-            causes.iter_mut().for_each(|cause| {
-                cause.insert_str(0, "in the stack, but not in the micro-tests: ")
-            });
+            causes
+                .iter_mut()
+                .for_each(|cause| cause.insert_str(0, place));
         }
         causes
     }

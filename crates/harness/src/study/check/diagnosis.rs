@@ -160,7 +160,7 @@ fn located(known: &Known, stack: Option<Compressed>, micro: Option<&Micro>) -> L
     };
     let findings = micro.findings.findings.iter();
     let models: Vec<String> = findings.filter_map(Finding::other_model).collect();
-    match failing_equations(micro, known.others_are_off) {
+    match failing_equations(micro, !known.others.is_empty()) {
         // What is known of the model says more than which equation fails.
         own if !models.is_empty() && !own.as_ref().is_some_and(|own| own.is_explained) => Located {
             texts: models.into_iter().take(MOST_CAUSES).collect(),
@@ -172,7 +172,7 @@ fn located(known: &Known, stack: Option<Compressed>, micro: Option<&Micro>) -> L
             is_known: own.is_explained,
             are_known: own.are_explained,
         },
-        _ if !known.is_exact || known.others_are_off => Located::default(),
+        _ if !known.is_exact || !known.others.is_empty() => Located::default(),
         _ => {
             let of_stack = stack.zip(known.stacks.first());
             let beginning = of_stack.and_then(|((series, case), first)| {
@@ -229,20 +229,25 @@ pub(super) fn of_motions(micro: &Micro) -> Vec<String> {
     found.unwrap_or_else(|| failing_equations(micro, false).map_or_else(Vec::new, |own| own.texts))
 }
 
+/// Sorts by distance, the largest first, so that a mistake that does not fit is soon rejected.
+fn sort(motions: &mut [Evidence]) {
+    let distance = |own: &Evidence| own.before / own.same;
+    motions.sort_by(|one, two| distance(two).total_cmp(&distance(one)));
+}
+
 /// The results of a code, compared with those of its twins.
+#[derive(Clone)]
 struct Known {
     /// The stack up to its peak; also to its end, if law and integrator are those of the twin. None if the code
     /// compresses none.
     stacks: Vec<Evidence>,
     motions: Vec<Evidence>,
+    /// Motions in which contacts come and go, if one of them shows a mistake.
+    others: Vec<Evidence>,
     /// Whether the code has the integrator of the twin, by micro-tests that agree to the last digits.
     has_integrator: bool,
     /// Whether it has its law, too.
     is_exact: bool,
-    /// Whether motions in which contacts come and go show a mistake.
-    others_are_off: bool,
-    /// Whether those with a single contact show none.
-    single_are_right: bool,
 }
 
 impl Known {
@@ -278,31 +283,25 @@ impl Known {
         if is_exact {
             others.iter_mut().for_each(|own| own.same = OF_THIRD_ORDER);
         }
-        let single_are_right = !motions.iter().any(Evidence::is_off);
         let differs_elsewhere = micro.is_some_and(Micro::differs_elsewhere);
         let others_are_off = differs_elsewhere || is_exact && others.iter().any(Evidence::is_off);
-        if is_exact || differs_elsewhere {
-            motions.extend(others);
-        }
-        // Largest distance first, so that a mistake that does not fit is soon rejected.
-        let distance = |own: &Evidence| own.before / own.same;
-        motions.sort_by(|one, two| distance(two).total_cmp(&distance(one)));
+        others.retain(|_| others_are_off);
+        sort(&mut motions);
         Self {
             stacks,
             motions,
+            others,
             has_integrator,
             is_exact,
-            others_are_off,
-            single_are_right,
         }
     }
 
     /// Returns the item on micro-tests that differ from the twin, although others agree with it to the last digits.
     fn item(&self) -> Option<Item> {
-        let off = self
-            .motions
-            .first()
-            .filter(|own| own.is_off() && own.same < SAME)?;
+        let all = self.motions.iter().chain(&self.others);
+        let off = all
+            .into_iter()
+            .find(|own| own.is_off() && own.same < SAME)?;
         let (name, step, found, expected) = off.first_off();
         Some(Item::failed(
             Grade::Consistency,
@@ -317,15 +316,35 @@ impl Known {
         ))
     }
 
-    /// Returns the mistakes that explain everything, or else the motions or the stack alone.
+    /// Returns the mistakes that explain everything, or else the motions or the stack alone. Where there are none,
+    /// contacts that come and go may show them.
     fn causes(self) -> Vec<String> {
+        let causes = self.clone().explained();
+        if !causes.is_empty() || self.others.is_empty() {
+            return causes;
+        }
+        let Self {
+            mut motions,
+            others,
+            ..
+        } = self;
+        motions.extend(others);
+        sort(&mut motions);
+        let with_others = Self {
+            motions,
+            others: Vec::new(),
+            ..self
+        };
+        with_others.explained()
+    }
+
+    fn explained(self) -> Vec<String> {
         let Self {
             stacks,
             motions,
             has_integrator,
             is_exact,
-            others_are_off,
-            single_are_right,
+            others,
         } = self;
         let law = motions.iter().any(Evidence::is_off);
         let off = stacks.iter().any(Evidence::is_off);
@@ -365,10 +384,10 @@ impl Known {
             let place = stacks[0].beginning();
             causes.extend(place.filter(|own| !own.starts_with(MOVED)));
         }
-        if causes.is_empty() && off && single_are_right {
-            let place = match others_are_off {
-                true => "where several contacts act at once: ",
-                false => "in the stack, but not in the micro-tests: ",
+        if causes.is_empty() && !law {
+            let place = match others.is_empty() {
+                false => "where several contacts act at once: ",
+                true => "in the stack, but not in the micro-tests: ",
             };
             causes = search::explanations(&stacks);
             causes

@@ -19,6 +19,8 @@ pub const NEAR_A_RULE: f64 = 0.25;
 /// Largest uncertainty of a value at vanishing time step, relative to the declared value. No two codes are known that mean
 /// different things and are closer, and what is left open is no more than the uncertainty that is stated.
 const EXTRAPOLATED: f64 = 1e-3;
+/// The same of a damping, on which no yield force depends: stacks come to rest a hundredth earlier or later.
+const EXTRAPOLATED_DAMPING: f64 = 1e-2;
 
 /// Largest uncertainty of a value that decides between rules, whose values are 1 apart.
 const CLEAR: f64 = 1e-2;
@@ -392,6 +394,9 @@ impl Property {
         // What is known at vanishing step alone is known less well.
         let allowed = match self.is_extrapolated {
             true if self.shows_rule() => uncertainty.clamp(relative * scale, NEAR_A_RULE),
+            true if self.name.ends_with("_damping") => {
+                uncertainty.clamp(relative * scale, EXTRAPOLATED_DAMPING * scale)
+            }
             true => uncertainty.clamp(relative * scale, EXTRAPOLATED * scale),
             false => relative * scale,
         };

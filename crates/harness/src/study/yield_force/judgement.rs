@@ -12,7 +12,8 @@ use crate::model::Protocol;
 use crate::runs::{RunSummary, Workload};
 use crate::series::{YieldEstimates, left_of_touch};
 use crate::study::{
-    Evaluation, Ground, Grounds, Judged, MAX_TOLERANCE, MIN_TOLERANCE, Study, Verdict, tolerance,
+    Evaluation, Ground, Grounds, Judged, MAX_TOLERANCE, MIN_TOLERANCE, RESOLUTIONS, Study, Verdict,
+    tolerance,
 };
 
 /// The yield force that the runs of a measurement show.
@@ -221,6 +222,7 @@ impl<'a> Reader<'a> {
         let error = (force - reference) / load;
         let allowed = tolerance(relative, self.measurement.resolution);
         let is_coarse = Verdict::of(error, relative, allowed) == Verdict::Inconclusive;
+        let is_accepted = RESOLUTIONS.contains(&relative);
         let note = is_coarse.then(|| {
             // Two numbers that differ are not told in the same digits.
             let two = |digits: usize| [relative, allowed].map(|one| format!("{one:.digits$e}"));
@@ -228,7 +230,13 @@ impl<'a> Reader<'a> {
             let [relative, allowed] = told
                 .find(|[one, other]| one != other)
                 .unwrap_or_else(|| two(1));
-            format!("too coarse: its uncertainty is {relative} of the load, and may be {allowed}")
+            let accepted = match is_accepted {
+                true => " unless `--resolution` accepts more",
+                false => "",
+            };
+            format!(
+                "too coarse: its uncertainty is {relative} of the load, and may be {allowed}{accepted}"
+            )
         });
         self.grounds.compare(error, relative, allowed, note);
     }

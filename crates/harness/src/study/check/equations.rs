@@ -5,6 +5,7 @@
 //! not spread to the next, and the residual is the mistake itself. One or two terms that explain the whole residual
 //! name the mistake.
 
+use super::evidence::test_under;
 use super::factor::of_factor;
 use super::table::MOST_CAUSES;
 use super::terms::{
@@ -464,6 +465,8 @@ impl Walk {
         let grown =
             [one.spin, other.spin, across, -separation].map(|rate| rate * twin.run.time_step);
         let pressing = normal_force - pulled;
+        let sliding = across - one.spin - other.spin;
+        let law = &twin.contacts[contact];
         let began = old.overlap > 0.0;
         self.touch = Touch {
             normal,
@@ -471,10 +474,12 @@ impl Walk {
             tangential,
             elastic: state.elastic,
             sheared,
+            limit: law.friction * pressing.abs(),
+            damped: -law.damping_tangential * memory.damping * sliding,
             pulled,
             overlap,
             separation,
-            sliding: across - one.spin - other.spin,
+            sliding,
             ways: std::array::from_fn(|index| old.ways[index] + grown[index]),
             stretches: std::array::from_fn(|index| {
                 memory.kept * old.stretches[index] + memory.unit * grown[index]
@@ -552,14 +557,7 @@ impl Equations {
 
     /// Adds all numbers of a micro-test.
     fn read(&mut self, answer: &Answer, convention: ContactConvention) {
-        let restitution = answer.test.convention.restitution;
-        let test = ContactTest {
-            convention: ContactConvention {
-                restitution,
-                ..convention
-            },
-            ..answer.test
-        };
+        let test = test_under(answer, convention);
         let mut twin = Twin::of_motion(&test);
         let mut walk = Walk::default();
         for row in answer.motion.rows() {

@@ -111,15 +111,7 @@ impl Evidence {
 
     /// Returns the evidence of a micro-test under this `convention`, with the restitution of the test.
     pub fn of_motion(answer: &Answer, convention: ContactConvention) -> Self {
-        let restitution = answer.test.convention.restitution;
-        let convention = ContactConvention {
-            restitution,
-            ..convention
-        };
-        let test = ContactTest {
-            convention,
-            ..answer.test
-        };
+        let test = test_under(answer, convention);
         let columns = &MotionRow::COLUMNS;
         Self::new(Twin::of_motion(&test), columns, answer.motion.rows())
     }
@@ -407,6 +399,18 @@ impl Evidence {
             true => self.same.min(EXPLAINED * self.before),
             false => (AS_BEFORE * self.before).max(ROUNDING),
         }
+    }
+}
+
+/// The test of an answer under this `convention`, with the restitution of the test.
+pub(super) fn test_under(answer: &Answer, convention: ContactConvention) -> ContactTest {
+    let restitution = answer.test.convention.restitution;
+    ContactTest {
+        convention: ContactConvention {
+            restitution,
+            ..convention
+        },
+        ..answer.test
     }
 }
 

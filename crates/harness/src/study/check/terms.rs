@@ -39,6 +39,10 @@ pub(super) struct Touch {
     /// The springs' parts of `pressing` and `tangential`.
     pub elastic: f64,
     pub sheared: f64,
+    /// Coulomb's limit.
+    pub limit: f64,
+    /// The tangential damping by the velocities, which a contact that slides does not show.
+    pub damped: f64,
     /// Force along the normal of a tangential spring that nothing turns.
     pub pulled: f64,
     /// Negative where the surfaces are apart.
@@ -70,6 +74,12 @@ impl Moment {
     pub fn across(&self, axis: usize) -> f64 {
         let [x, y] = self.touch.normal;
         self.sign * [-y, x][axis]
+    }
+
+    /// Returns the force that the code has written, along the tangent.
+    fn sideways(&self) -> f64 {
+        let [x, y] = self.now.force;
+        x * self.across(0) + y * self.across(1)
     }
 
     /// Returns a force that has these parts along tangent and normal.
@@ -121,6 +131,11 @@ impl Touch {
         self.pressing - self.elastic
     }
 
+    /// The two parts of the tangential force multiplied, where the law adds them.
+    fn product(&self) -> f64 {
+        (self.tangential - self.damped) * self.damped
+    }
+
     fn tangential_damping(&self) -> f64 {
         self.tangential - self.sheared
     }
@@ -154,7 +169,7 @@ macro_rules! terms {
 }
 
 /// A force on a body.
-pub(super) static FORCE: [Term; 37] = terms! {
+pub(super) static FORCE: [Term; 39] = terms! {
     "the normal force" => |m, axis| m.touch.pressing * m.along(axis);
     "the spring's part of the normal force" => |m, axis| m.touch.elastic * m.along(axis);
     "the damping of the normal force" => |m, axis| m.touch.damping() * m.along(axis);
@@ -201,6 +216,10 @@ pub(super) static FORCE: [Term; 37] = terms! {
         |m, axis| -m.touch.pressing * sign_of(m.touch.sliding) * m.across(axis);
     "the size of the tangential force against the tangential velocity", "the sign is that of the velocity, not of the spring" =>
         |m, axis| -m.touch.tangential.abs() * sign_of(m.touch.sliding) * m.across(axis);
+    "Coulomb's limit in the direction of the code's own force", "the contact slides where it must stick, or to the other side" =>
+        |m, axis| m.touch.limit * sign_of(m.sideways()) * m.across(axis);
+    "the spring's part of the tangential force times its damping", "a product stands where the law has a sum" =>
+        |m, axis| m.touch.product() * m.across(axis);
     "the velocity of the cylinder", "a drag, a damping besides that of the contacts" => |m, axis| rate(&m.now, axis);
     "its displacement to the right since the beginning", "something holds it there: a side wall, a boundary" =>
         |m, axis| m.moved(axis, 0, 1.0);
@@ -214,7 +233,7 @@ pub(super) static FORCE: [Term; 37] = terms! {
 };
 
 /// A torque on a body about its centre.
-pub(super) static TORQUE: [Term; 14] = terms! {
+pub(super) static TORQUE: [Term; 16] = terms! {
     "the tangential force" => |m, _| -m.arm * m.touch.tangential;
     "the spring's part of the tangential force" => |m, _| -m.arm * m.touch.sheared;
     "the damping of the tangential force" => |m, _| -m.arm * m.touch.tangential_damping();
@@ -233,6 +252,10 @@ pub(super) static TORQUE: [Term; 14] = terms! {
         |m, _| m.arm * m.touch.tangential.abs() * sign_of(m.touch.sliding);
     "the normal force against the tangential velocity", "a friction by the sign of the velocity" =>
         |m, _| m.arm * m.touch.pressing * sign_of(m.touch.sliding);
+    "Coulomb's limit in the direction of the code's own force", "the contact slides where it must stick, or to the other side" =>
+        |m, _| m.arm * m.touch.limit * sign_of(m.now.torque);
+    "the spring's part of the tangential force times its damping", "a product stands where the law has a sum" =>
+        |m, _| -m.arm * m.touch.product();
     "a constant", "a torque that is always there" => |_, _| 1.0;
 };
 

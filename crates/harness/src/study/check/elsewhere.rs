@@ -22,6 +22,8 @@ const MOST_CAUSES: usize = 3;
 
 /// Friction with which contacts stick first and slide later.
 const FRICTION: f64 = 0.4;
+/// That of the floor, which is larger, so that a mean or the smaller one shows.
+const FLOOR_FRICTION: f64 = 0.6;
 const TIME_STEP: f64 = 0.05;
 /// A height of the top wall that two cylinders do not reach.
 const HIGH: f64 = 4.5;
@@ -215,9 +217,9 @@ fn numbers(row: &MotionRow) -> [Numbers; 2] {
 }
 
 /// A motion, and the views of it that must look the same.
-struct Start {
+pub(super) struct Start {
     name: &'static str,
-    test: ContactTest,
+    pub test: ContactTest,
     views: Vec<View>,
     /// Whether nothing touches for a while, so that the rest can be begun anew.
     parts: bool,
@@ -227,10 +229,10 @@ fn at([x, y]: [f64; 2], [vx, vy]: [f64; 2], spin: f64) -> InitialMotion {
     InitialMotion { x, y, vx, vy, spin }
 }
 
-fn starts(convention: &ContactConvention, in_space: bool) -> Vec<Start> {
+pub(super) fn starts(convention: &ContactConvention, in_space: bool) -> Vec<Start> {
     use View::{About, Carried, Exchanged, Mirrored, Moved, Turned, UpsideDown};
     let test = |steps, wall_height, initial_motions| ContactTest {
-        floor_friction: FRICTION,
+        floor_friction: FLOOR_FRICTION,
         cylinder_friction: FRICTION,
         time_step: TIME_STEP,
         steps,

@@ -1,6 +1,7 @@
 //! Items on a stack and on micro-tests, and the one mistake that explains those that failed.
 
 use super::evidence::{Evidence, MOVED, ROUNDING, SAME};
+use super::first_force::first_wrong;
 use super::micro::{self, Micro};
 use super::report::{Grade, Item, Outcome};
 use super::stack::{self, Scheme, at_first_sight, in_single_precision};
@@ -107,7 +108,13 @@ pub(super) fn items(
         // wrong as well, and keeps its own causes.
         let is_declaration = item.name == micro::DECLARATION && (place > 0 || causes.is_empty());
         if !causes.is_empty() && !is_declaration {
-            item.causes.clone_from(&causes);
+            // What may have happened is told closer by the views of a motion that show it.
+            let views = match item.name == elsewhere::NAME && causes[0].ends_with(events::OCCASIONS)
+            {
+                true => std::mem::take(&mut item.causes),
+                false => Vec::new(),
+            };
+            item.causes = [causes.clone(), views].concat();
         } else if let Some(plain) = plain.as_ref().filter(|_| !is_declaration) {
             item.causes = vec![plain.clone()];
         } else if item.name == elsewhere::NAME {
@@ -172,7 +179,14 @@ fn located(known: &Known, stack: Option<Compressed>, micro: Option<&Micro>) -> L
             is_known: own.is_explained,
             are_known: own.are_explained,
         },
-        _ if !known.is_exact || !known.others.is_empty() => Located::default(),
+        _ if !known.is_exact => Located::default(),
+        _ if !known.others.is_empty() => {
+            let convention = known.others[0].twin.convention;
+            Located {
+                texts: first_wrong(&micro.others, convention).into_iter().collect(),
+                ..Located::default()
+            }
+        }
         _ => {
             let of_stack = stack.zip(known.stacks.first());
             let beginning = of_stack.and_then(|((series, case), first)| {

@@ -6,7 +6,8 @@
 
 use super::evidence::{Evidence, ROUNDING};
 use super::search::AS_WELL;
-use super::twin::{CONTACTS, Lists, PAIRS, Twin};
+use super::touching::State;
+use super::twin::{CONTACTS, FLOOR, Lists, PAIRS, Twin, WALL};
 use rayon::prelude::*;
 use std::cell::RefCell;
 use std::mem::discriminant;
@@ -36,11 +37,13 @@ const BY_CHANCE: f64 = 0.05;
 /// Largest way of a body in a step, in units of r, that may be rounding.
 const AT_REST: f64 = 1e-12;
 /// What may have happened.
-const OCCASIONS: &str =
+pub(super) const OCCASIONS: &str =
     "as at a restart, a change of processor, of a mesh element or of a list of contacts";
+/// What may have happened if a contact opens or closes in the same step.
+const OF_LISTS: &str = "as if a list of contacts were changed while it is read, or what belongs to a contact were found by its place in it";
 
-/// Contacts with springs that may be lost together, the larger sets first.
-const SPRINGS: [(&str, &[usize]); 12] = [
+/// Contacts to which something may happen together, the larger sets first.
+const SETS: [(&str, &[usize]); 16] = [
     ("", &[0, 1, 2, 3, 4, 5]),
     (" between cylinders", &[0, 1, 2]),
     (" at the floor", &[3, 4, 5]),
@@ -53,7 +56,15 @@ const SPRINGS: [(&str, &[usize]); 12] = [
     (" of cylinder 1 at the floor", &[3]),
     (" of cylinder 2 at the floor", &[4]),
     (" of cylinder 3 at the floor", &[5]),
+    (" at the top wall", &[6, 7, 8]),
+    (" of cylinder 1 at the top wall", &[6]),
+    (" of cylinder 2 at the top wall", &[7]),
+    (" of cylinder 3 at the top wall", &[8]),
 ];
+/// The sets of contacts that have tangential springs.
+const SPRINGS: std::ops::Range<usize> = 0..12;
+/// The sets of one contact with a spring, in the order of the contacts.
+const SINGLE: std::ops::Range<usize> = 6..12;
 
 /// What happens to the twin before it computes the forces of a step.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -62,6 +73,12 @@ enum Event {
     Lost(usize),
     /// They change their sign.
     Reversed(usize),
+    /// The spring of the first contact is that of the second one, in its own direction or against it.
+    Taken(usize, usize, bool),
+    /// The springs stay where they are in the list of closed contacts, and these do not.
+    Displaced,
+    /// The forces of a set are not computed, and its springs forgotten if so.
+    LeftOut(usize, bool),
     /// They are those of the step before.
     OldSprings,
     /// Places and velocities are those of the step before, with the springs or without them.
@@ -85,13 +102,18 @@ enum Event {
 enum Renewal {
     /// The list of contacts: one that closes later has no force until then.
     Contacts,
+    /// That of pairs alone.
+    Pairs,
     /// The normals of pairs.
     Normals,
 }
 
 fn events() -> Vec<Event> {
-    let sets = 0..SPRINGS.len();
+    let taken = SINGLE.flat_map(|one| SINGLE.map(move |other| (one, other)));
+    let taken = taken.filter(|(one, other)| one != other);
+    let left_out = (0..SETS.len()).filter(|set| is_of_one_kind(SETS[*set].1));
     let single = [
+        Event::Displaced,
         Event::PlacesAlone,
         Event::Stopped(true),
         Event::Stopped(false),
@@ -102,8 +124,12 @@ fn events() -> Vec<Event> {
         Event::Twice,
         Event::WallStays,
     ];
-    let lost = sets.clone().map(Event::Lost);
-    lost.chain(sets.map(Event::Reversed))
+    let lost = SPRINGS.map(Event::Lost);
+    lost.chain(SPRINGS.map(Event::Reversed))
+        .chain(
+            taken.flat_map(|(one, other)| [false, true].map(|own| Event::Taken(one, other, own))),
+        )
+        .chain(left_out.flat_map(|set| [false, true].map(|own| Event::LeftOut(set, own))))
         .chain(single)
         .chain(DIGITS.map(Event::Rounded))
         .collect()
@@ -115,6 +141,23 @@ impl Event {
         match self {
             Self::Lost(set) => change_springs(twin, set, 0.0),
             Self::Reversed(set) => change_springs(twin, set, -1.0),
+            Self::Taken(one, other, is_against) => {
+                let ([one], [other]) = (SETS[one].1, SETS[other].1) else {
+                    return;
+                };
+                let sign = if is_against { -1.0 } else { 1.0 };
+                let spring = twin.states[*other].spring;
+                twin.states[*one].spring = spring.map(|part| part * sign);
+            }
+            Self::Displaced => twin.displace_springs(),
+            Self::LeftOut(set, is_forgotten) => {
+                let contacts = SETS[set].1;
+                if is_forgotten {
+                    let own = contacts.iter();
+                    own.for_each(|contact| twin.states[*contact] = Default::default());
+                }
+                twin.left_out = contacts;
+            }
             Self::OldSprings => twin.states = before.states,
             Self::OldBodies(with_springs) => {
                 twin.bodies.clone_from(&before.bodies);
@@ -147,7 +190,10 @@ impl Event {
     /// Whether it can be one of several that have one cause.
     fn is_like(self, other: Self) -> bool {
         match (self, other) {
-            (Self::Lost(_) | Self::Reversed(_), _) => discriminant(&self) == discriminant(&other),
+            (Self::Lost(_) | Self::Reversed(_) | Self::Taken(..), _) => {
+                discriminant(&self) == discriminant(&other)
+            }
+            (Self::LeftOut(_, one), Self::LeftOut(_, other)) => one == other,
             _ => self == other,
         }
     }
@@ -161,10 +207,24 @@ impl Event {
     }
 
     fn in_words(self) -> String {
-        let springs = |set: usize| format!("the tangential springs{}", SPRINGS[set].0);
+        let springs = |set: usize| format!("the tangential springs{}", SETS[set].0);
         match self {
             Self::Lost(set) => format!("{} are lost", springs(set)),
             Self::Reversed(set) => format!("{} change their sign", springs(set)),
+            Self::Taken(one, other, is_against) => {
+                let sign = if is_against { ", with the other sign" } else { "" };
+                format!(
+                    "the tangential spring{} is replaced by that{}{sign}",
+                    SETS[one].0, SETS[other].0
+                )
+            }
+            Self::Displaced => "a contact gets the tangential spring of another one: springs belong to places in the list of closed \
+                                contacts"
+                .to_owned(),
+            Self::LeftOut(set, is_forgotten) => {
+                let forgotten = if is_forgotten { ", and the springs forgotten," } else { "" };
+                format!("the forces{} are left out{forgotten}", SETS[set].0)
+            }
             Self::OldSprings => "the tangential springs are those of the step before".to_owned(),
             Self::OldBodies(true) => "the whole state is that of the step before".to_owned(),
             Self::OldBodies(false) => {
@@ -193,18 +253,24 @@ impl Event {
         match self {
             Self::Lost(_) => "tangential springs of some contacts are lost".to_owned(),
             Self::Reversed(_) => "tangential springs of some contacts change their sign".to_owned(),
+            Self::Taken(..) => {
+                "tangential springs of some contacts are replaced by those of other ones".to_owned()
+            }
+            Self::LeftOut(..) => "the forces of some contacts are left out".to_owned(),
             other => other.in_words(),
         }
     }
 
-    /// The bodies whose tangential springs it changes, in the state of `twin`.
+    /// The bodies whose contacts it changes, in the state of `twin`.
     fn bodies(self, twin: &Twin) -> Vec<usize> {
-        let (Self::Lost(set) | Self::Reversed(set)) = self else {
-            return Vec::new();
+        let (set, is_changed): (usize, fn(&State) -> bool) = match self {
+            Self::Lost(set) | Self::Reversed(set) => (set, |own| own.spring != [0.0; 2]),
+            Self::LeftOut(set, _) => (set, |_| true),
+            _ => return Vec::new(),
         };
-        let own = SPRINGS[set].1.iter();
-        let stretched = own.filter(|contact| twin.states[**contact].spring != [0.0; 2]);
-        let contacts: Vec<usize> = stretched.copied().collect();
+        let own = SETS[set].1.iter();
+        let changed = own.filter(|contact| is_changed(&twin.states[**contact]));
+        let contacts: Vec<usize> = changed.copied().collect();
         let concerned = |body: &usize| contacts.iter().any(|own| is_of(*own, *body));
         let shared = |body: &usize| contacts.iter().all(|own| is_of(*own, *body));
         let all: Vec<usize> = (0..twin.bodies.len()).filter(concerned).collect();
@@ -215,6 +281,12 @@ impl Event {
     }
 }
 
+/// Whether contacts are all of pairs, of the floor, or of the top wall.
+fn is_of_one_kind(contacts: &[usize]) -> bool {
+    let mut kinds = [PAIRS, FLOOR, WALL].into_iter();
+    kinds.any(|kind| contacts.iter().all(|own| kind.contains(own)))
+}
+
 /// Whether a contact is one of a body.
 fn is_of(contact: usize, body: usize) -> bool {
     let (one, two) = CONTACTS[contact];
@@ -222,7 +294,7 @@ fn is_of(contact: usize, body: usize) -> bool {
 }
 
 fn change_springs(twin: &mut Twin, set: usize, factor: f64) {
-    for contact in SPRINGS[set].1 {
+    for contact in SETS[set].1 {
         let spring = &mut twin.states[*contact].spring;
         *spring = spring.map(|part| part * factor);
     }
@@ -236,17 +308,18 @@ fn change_state(twin: &mut Twin, rounded: impl Fn(f64) -> f64) {
 }
 
 impl Renewal {
-    const ALL: [Self; 2] = [Self::Contacts, Self::Normals];
+    const ALL: [Self; 3] = [Self::Contacts, Self::Pairs, Self::Normals];
 
     /// Prepares `twin` for a step in which it is renewed, or is not.
     fn step(self, twin: &mut Twin, is_renewed: bool) {
         match self {
-            Self::Contacts => {
+            Self::Contacts | Self::Pairs => {
                 twin.lists = if is_renewed {
                     Lists::Renewed
                 } else {
                     Lists::Kept
                 };
+                twin.lists_pairs_alone = matches!(self, Self::Pairs);
             }
             Self::Normals => {
                 for law in &mut twin.contacts[PAIRS] {
@@ -259,6 +332,7 @@ impl Renewal {
     fn in_words(self) -> &'static str {
         match self {
             Self::Contacts => "new contacts are found",
+            Self::Pairs => "new contacts between cylinders are found",
             Self::Normals => "the normals of pairs are computed",
         }
     }
@@ -271,6 +345,8 @@ struct Happened {
     step: u64,
     /// Round numbers that the horizontal positions of bodies concerned pass in this step.
     places: Vec<String>,
+    /// Contacts that open or close in this step.
+    occasions: Vec<String>,
 }
 
 /// Returns the event that explains all that is off in the `motions` and in the stack of a code whose law and integrator
@@ -285,9 +361,10 @@ pub(super) fn explanation(stacks: &[Evidence], motions: &[Evidence]) -> Option<S
     }
     // Beyond the peak rounding grows, and what explains the motions need not explain every row.
     let is_needed = motions.is_empty() || stacks.first().filter(is_off).is_some();
-    single(stack, is_needed, &motions)
-        .or_else(|| renewed(&all))
+    renewed(&all)
+        .or_else(|| single(stack, is_needed, &motions))
         .or_else(|| rhythmic(&all))
+        .or_else(|| single(None, false, &motions))
 }
 
 /// Returns the events at single steps of the `motions` and of the stack, which they must explain if `is_needed`.
@@ -313,13 +390,38 @@ fn single(stack: Option<&Evidence>, is_needed: bool, motions: &[&Evidence]) -> O
         when(&of_stack, "of the compression", before),
     ];
     let told: Vec<String> = told.into_iter().flatten().collect();
-    Some(format!("{what} {}, {OCCASIONS}", told.join(", and ")))
+    let begun: Vec<&Happened> = beginnings(&of_motions)
+        .chain(beginnings(&of_stack))
+        .collect();
+    let is_of_lists = begun.iter().all(|own| !own.occasions.is_empty());
+    let occasion = match is_of_lists {
+        true => {
+            let occasions = distinct(begun.iter().flat_map(|own| &own.occasions));
+            format!("when {}, {OF_LISTS}", listed(&occasions))
+        }
+        false => OCCASIONS.to_owned(),
+    };
+    Some(format!("{what} {}, {occasion}", told.join(", and ")))
 }
 
-/// Says at which steps of a run something has happened, and where.
+/// What does not go on from the step before.
+fn beginnings(all: &[Happened]) -> impl Iterator<Item = &Happened> {
+    let goes_on = |place: usize| place > 0 && all[place - 1].step + 1 == all[place].step;
+    let begun = all.iter().enumerate();
+    begun.filter_map(move |(place, own)| (!goes_on(place)).then_some(own))
+}
+
+/// Says at which steps of a run something has happened, or has begun to happen, and where.
 fn when(all: &[Happened], whose: &str, before: u64) -> Option<String> {
-    let first = all.first()?;
-    let steps: Vec<u64> = distinct(all.iter().map(|own| own.step));
+    let mut steps: Vec<u64> = distinct(beginnings(all).map(|own| own.step));
+    steps.sort_unstable();
+    if steps.is_empty() {
+        return None;
+    }
+    if beginnings(all).count() < all.len() {
+        let word = if steps.len() > 1 { "steps" } else { "step" };
+        return Some(format!("from {word} {} {whose} on", listed(&steps)));
+    }
     let word = if steps.len() > 1 { "steps" } else { "step" };
     let mut text = format!("at {word} {} {whose}", listed(&steps));
     let mut apart = steps.windows(2).map(|two| two[1].abs_diff(two[0]));
@@ -327,7 +429,7 @@ fn when(all: &[Happened], whose: &str, before: u64) -> Option<String> {
     match interval.filter(|_| steps.len() >= RHYTHM) {
         Some(every) if apart.all(|own| own == every) => text += &format!(" (every {every} steps)"),
         _ if before > 0 && steps.len() == 1 => {
-            text += &format!(" (step {} of the run)", before + first.step);
+            text += &format!(" (step {} of the run)", before + steps[0]);
         }
         _ => {}
     }
@@ -418,12 +520,33 @@ fn happened(own: &Evidence, kind: &mut Option<Event>) -> Option<Vec<Happened>> {
         });
         all.push(Happened {
             places: places.collect(),
+            occasions: changed_contacts(now),
             step: moments[place].0,
             events,
         });
         base = after((place, event));
     }
     (!all.is_empty()).then_some(all)
+}
+
+/// A contact in words.
+pub(super) fn words_of(contact: usize) -> &'static str {
+    let of = SETS.iter().find(|(_, own)| *own == [contact]);
+    of.map_or("", |(words, _)| words)
+}
+
+/// Says which contacts open or close in the step whose forces come next.
+pub(super) fn changed_contacts(twin: &Twin) -> Vec<String> {
+    let mut next = twin.clone();
+    next.forces();
+    let are_closed = |own: &Twin| own.states.map(|state| state.overlap > 0.0);
+    let both = are_closed(twin).into_iter().zip(are_closed(&next));
+    let changed = both.enumerate().filter(|(_, (before, now))| before != now);
+    let told = changed.map(|(contact, (_, is_closed))| {
+        let verb = if is_closed { "closes" } else { "opens" };
+        format!("the contact{} {verb}", words_of(contact))
+    });
+    told.collect()
 }
 
 /// Goes on to the first row that is off; returns the moments since the last one that is right, and the distance.
@@ -465,7 +588,7 @@ fn renewed(all: &[&Evidence]) -> Option<String> {
         .into_iter()
         .flat_map(|renewal| rhythms().map(move |rhythm| (renewal, rhythm)));
     let (renewal, (every, _)) = first_fitting(candidates, all, |twin, step, (renewal, rhythm)| {
-        renewal.step(twin, is_in(*rhythm, step));
+        renewal.step(twin, step == 0 || is_in(*rhythm, step));
     })?;
     Some(format!("{} every {every} steps alone", renewal.in_words()))
 }
@@ -499,6 +622,7 @@ fn rhythms() -> impl Iterator<Item = (u64, u64)> {
     INTERVALS.into_iter().flat_map(both)
 }
 
+/// Whether a step is one of a rhythm.
 fn is_in((every, first): (u64, u64), step: u64) -> bool {
     step >= first && (step - first).is_multiple_of(every)
 }
@@ -522,10 +646,12 @@ fn first_fitting<T: Copy + Send + Sync>(
 
 #[cfg(test)]
 mod tests {
+    use super::super::elsewhere::starts;
     use super::super::{ask_native, case};
     use super::*;
-    use crate::dem::compress_stack;
+    use crate::dem::{compress_stack, run_contact_test};
     use crate::model::ContactConvention;
+    use crate::runs::Answer;
 
     /// A stack that a right code has compressed.
     fn right() -> Evidence {
@@ -589,18 +715,67 @@ mod tests {
             });
             shown.contains(&true)
         };
-        let hidden: Vec<Event> = events()
+        let mut hidden: Vec<Event> = events()
             .into_par_iter()
             .filter(|event| !shows(event))
             .collect();
-        // Cylinders 2 and 3 do not touch, and cylinder 1 does not touch the floor.
+        // No contact opens or closes at these steps, and the stack is its own mirror image.
+        hidden.retain(|event| !matches!(event, Event::Taken(..) | Event::Displaced));
+        // Cylinders 2 and 3 do not touch, cylinder 1 not the floor, and 2 and 3 not the top wall.
+        let set = |event: &Event| match event {
+            Event::Lost(set) | Event::Reversed(set) | Event::LeftOut(set, _) => Some(*set),
+            _ => None,
+        };
+        let sets: Vec<Option<usize>> = distinct(hidden.iter().map(set));
+        assert_eq!(sets, [8, 9, 14, 15].map(Some));
+    }
+
+    /// What is told of motions in which contacts come and go if something happens in them at a step.
+    fn told_of_motions(happens: impl Fn(&mut Twin, u64) + Sync) -> String {
+        let convention = ContactConvention::TURNING;
+        let motions: Vec<Evidence> = starts(&convention, false)
+            .into_iter()
+            .map(|start| {
+                let answer = Answer {
+                    input_hash: String::new(),
+                    motion: run_contact_test(&start.test).expect("it is finite"),
+                    test: start.test,
+                };
+                let own = Evidence {
+                    same: ROUNDING,
+                    ..Evidence::of_motion(&answer, convention)
+                };
+                own.written_by(|_| (), &happens)
+            })
+            .collect();
+        explanation(&[], &motions).unwrap_or_default()
+    }
+
+    #[test]
+    fn mistakes_in_lists_of_contacts_are_told_with_the_contact_that_opens_or_closes() {
+        let text = told_of_motions(|twin, _| twin.displace_springs());
+        assert!(
+            text.contains("springs belong to places in the list"),
+            "{text}"
+        );
+        assert!(text.contains(OF_LISTS), "{text}");
+        // The floor of cylinder 1 is passed over when the pair opens.
+        let text = told_of_motions(|twin, _| {
+            let opens = "the contact of cylinders 1 and 2 opens".to_owned();
+            if changed_contacts(twin).contains(&opens) {
+                Event::LeftOut(9, false).happen(twin, &twin.clone());
+            }
+        });
+        let expected = "the forces of cylinder 1 at the floor are left out at step";
+        assert!(text.starts_with(expected), "{text}");
+        assert!(
+            text.contains("when the contact of cylinders 1 and 2 opens, as if a list"),
+            "{text}"
+        );
+        let text = told_of_motions(|twin, now| Renewal::Pairs.step(twin, now.is_multiple_of(50)));
         assert_eq!(
-            hidden,
-            [8, 9]
-                .map(Event::Lost)
-                .into_iter()
-                .chain([8, 9].map(Event::Reversed))
-                .collect::<Vec<_>>()
+            text,
+            "new contacts between cylinders are found every 50 steps alone"
         );
     }
 

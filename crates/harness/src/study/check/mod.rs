@@ -9,6 +9,7 @@ mod equations;
 mod events;
 mod evidence;
 mod factor;
+mod first_force;
 mod information;
 mod micro;
 mod numbers;

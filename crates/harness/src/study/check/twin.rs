@@ -91,7 +91,11 @@ pub(super) struct Twin {
     pub states: [State; 9],
     /// Which contacts have forces.
     pub lists: Lists,
+    /// Whether lists are those of pairs, so that floor and wall need none.
+    pub lists_pairs_alone: bool,
     listed: [bool; 9],
+    /// Contacts whose forces are not computed in the next step.
+    pub left_out: &'static [usize],
     /// The tangential spring that all contacts of a kind share, if they do.
     shared: [[f64; 2]; 3],
     pub wall: f64,
@@ -149,7 +153,9 @@ impl Twin {
             bodies: Vec::new(),
             states: [State::default(); 9],
             lists: Lists::None,
+            lists_pairs_alone: false,
             listed: [false; 9],
+            left_out: &[],
             shared: [[0.0; 2]; 3],
             wall: f64::INFINITY,
             wall_speed: 0.0,
@@ -406,8 +412,11 @@ impl Twin {
             ];
         }
         let count = self.bodies.len();
+        let left_out = std::mem::take(&mut self.left_out);
         for (index, (one, two)) in CONTACTS.into_iter().enumerate() {
-            if one < count && two.is_none_or(|two| two < count) {
+            if left_out.contains(&index) {
+                self.states[index].force = [0.0; 2];
+            } else if one < count && two.is_none_or(|two| two < count) {
                 let kind = index / 3;
                 let shares = self.contacts[index].shares_spring != 0.0;
                 if shares {
@@ -421,6 +430,22 @@ impl Twin {
         }
     }
 
+    /// Leaves the springs at their places in the list of closed contacts, where these are closed now.
+    pub fn displace_springs(&mut self) {
+        let mut next = self.clone();
+        next.forces();
+        let closed = |own: &Self| {
+            let all = 0..own.states.len();
+            let own = all.filter(|index| own.states[*index].overlap > 0.0);
+            own.collect::<Vec<_>>()
+        };
+        let springs = closed(self).into_iter().map(|own| self.states[own].spring);
+        let springs: Vec<[f64; 2]> = springs.collect();
+        for (place, own) in closed(&next).into_iter().enumerate() {
+            self.states[own].spring = springs.get(place).copied().unwrap_or_default();
+        }
+    }
+
     fn contact(&mut self, index: usize, one: usize, two: Option<usize>) {
         let Self {
             contacts,
@@ -430,6 +455,7 @@ impl Twin {
             bodies,
             states,
             lists,
+            lists_pairs_alone,
             listed,
             ..
         } = self;
@@ -459,7 +485,8 @@ impl Twin {
         if *lists == Lists::Renewed {
             listed[index] = overlap > 0.0;
         }
-        let is_unknown = *lists != Lists::None && !listed[index];
+        let needs_list = *lists != Lists::None && (!*lists_pairs_alone || two.is_some());
+        let is_unknown = needs_list && !listed[index];
         let is_open = is_unknown || overlap <= 0.0 && (overlap < 0.0 || law.touches == 0.0);
         if overlap.is_nan() || is_open && law.pulls * state.overlap == 0.0 {
             let is_forgotten = state.overlap == 0.0 && state.spring == [0.0; 2];

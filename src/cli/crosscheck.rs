@@ -5,8 +5,9 @@ use super::explain::{RowName, explain, row_name};
 use super::findings::exchange_all;
 use super::interrupt::interrupted_after;
 use super::options::{
-    CodeOptions, Format, ResolutionOptions, RowOptions, RunOptions, StackOptions, check_compress,
-    find_all, options_of, power, selected_codes, tell_stand_ins,
+    CodeOptions, Format, ResolutionOptions, RowOptions, RunOptions, StackOptions,
+    UnannouncedOptions, check_compress, find_all, options_of, power, selected_codes,
+    tell_stand_ins,
 };
 use super::out::Out;
 use super::progress::{Reporter, during};
@@ -35,6 +36,7 @@ use std::path::PathBuf;
     tristack crosscheck --explain yade/0.3/100\n          \
     tristack crosscheck --mu 0.3 --profile standard --only-failures --junit junit.xml\n          \
     tristack crosscheck --mu 0.1:0.5:0.05,critical --stiffness 1e2 --summary\n          \
+    tristack crosscheck --codes ./mydem --unannounced 5\n          \
     tristack crosscheck --profile published --published arXiv-2511.06807"
 )]
 pub(super) struct Arguments {
@@ -56,7 +58,7 @@ pub(super) struct Arguments {
     pub out: Option<PathBuf>,
     /// Explain one row, CODE/MU/STIFFNESS, from its runs to its verdict, instead of printing all rows; measured in the way of
     /// --profile
-    #[arg(long, value_name = "ROW", value_parser = row_name, conflicts_with_all = ["codes", "out", "mu", "stiffness", "only_failures", "summary", "junit"])]
+    #[arg(long, value_name = "ROW", value_parser = row_name, conflicts_with_all = ["codes", "out", "mu", "stiffness", "only_failures", "summary", "junit", "unannounced"])]
     explain: Option<RowName>,
     /// Let the wall of native runs approach the yield up to ten times faster and stop after it; for each row, one
     /// run without shortcuts measures what this changes
@@ -64,6 +66,8 @@ pub(super) struct Arguments {
     shortcuts: bool,
     #[command(flatten)]
     resolution: ResolutionOptions,
+    #[command(flatten)]
+    unannounced: UnannouncedOptions,
     #[command(flatten)]
     rows: RowOptions,
     #[command(flatten)]
@@ -75,7 +79,7 @@ pub(super) struct Arguments {
 
 /// Returns the options that conflict with the published numbers.
 fn not_of_published() -> Vec<clap::Id> {
-    let own = ["law", "explain", "shortcuts", "resolution"].map(clap::Id::from);
+    let own = ["law", "explain", "shortcuts", "resolution", "unannounced"].map(clap::Id::from);
     let others = options_of::<StackOptions>().into_iter();
     let others = others.chain(options_of::<RowOptions>());
     let others = others.chain(["mu", "stiffness"].map(clap::Id::from));
@@ -110,7 +114,19 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
         true => settle_after_probes(&codes, &arguments.run)?,
         false => settle(&codes, &arguments.run)?,
     };
-    let planned = || arguments.stacks.measurements(&settled, arguments.law);
+    let draw = arguments.unannounced.draw();
+    let again = draw.map_or_else(String::new, |draw| format!(" --seed {}", draw.seed));
+    let command = match draw {
+        Some(draw) if draw.is_new => format!("{command}{again}"),
+        _ => command.to_owned(),
+    };
+    if draw.is_some() {
+        tell!("stacks are drawn now; to draw them again:{again}");
+    }
+    let planned = || match draw {
+        Some(draw) => arguments.stacks.drawn(draw, &settled, arguments.law),
+        None => arguments.stacks.measurements(&settled, arguments.law),
+    };
     let measurements = during("planning", planned)?.into_iter();
     let measurements = measurements
         .map(|own| with_options(own, arguments.shortcuts, &arguments.resolution))
@@ -124,7 +140,7 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
         rows,
         &out,
         arguments.format,
-        command,
+        &command,
     );
     let found = conclude(&judgements, planned, &codes);
     exchange_all(Finder::Crosscheck, &codes, &settings.store, |selected| {

@@ -1,7 +1,8 @@
 //! The stacks of a crosscheck on the command line.
 
 use super::options::{
-    FRICTIONS, Friction, ResolutionOptions, STIFFNESSES, StackOptions, Stiffness, Values, as_flag,
+    Draw, FRICTIONS, Friction, ResolutionOptions, STIFFNESSES, StackOptions, Stiffness, Values,
+    as_flag,
 };
 use crate::code::{Code, SettledCode};
 use crate::model::{InvalidValue, Power, Stack};
@@ -96,11 +97,35 @@ impl StackSet {
         codes: &[SettledCode],
         power: Power,
     ) -> Result<Vec<Measurement>, InvalidValue> {
-        let own = self.own_stacks(power)?;
-        let stacks = match &own {
-            Some(own) => own.clone(),
-            None => self.profile_stacks(power)?,
-        };
+        match self.own_stacks(power)? {
+            Some(own) => self.measurements_of(&own, codes, power),
+            None => {
+                let stacks = self.profile()?.stacks(power, self.others.bodies);
+                let stacks = self.with_others(&stacks, power)?;
+                self.chosen(self.measurements_of(&stacks, codes, power)?)
+            }
+        }
+    }
+
+    /// Returns the measurements of stacks that are drawn, by each of `codes`, by a law of this power.
+    pub fn drawn(
+        &self,
+        draw: Draw,
+        codes: &[SettledCode],
+        power: Power,
+    ) -> Result<Vec<Measurement>, InvalidValue> {
+        let Draw { count, seed, .. } = draw;
+        let bodies = self.others.bodies;
+        let stacks = self.profile()?.drawn((count, seed), power, bodies);
+        self.measurements_of(&self.with_others(&stacks, power)?, codes, power)
+    }
+
+    fn measurements_of(
+        &self,
+        stacks: &[Stack],
+        codes: &[SettledCode],
+        power: Power,
+    ) -> Result<Vec<Measurement>, InvalidValue> {
         let pairs = stacks
             .iter()
             .flat_map(|stack| codes.iter().map(move |code| (stack, code)));
@@ -108,11 +133,7 @@ impl StackSet {
             .into_iter()
             .try_for_each(|(stack, code)| code.name().check_stiffness_ratio(stack.stiffness_ratio))
             .map_err(as_flag)?;
-        let all = self.profile()?.measurements_of(&stacks, codes, power);
-        match own {
-            Some(_) => Ok(all),
-            None => self.chosen(all),
-        }
+        Ok(self.profile()?.measurements_of(stacks, codes, power))
     }
 
     /// Returns the stacks that are asked for in place of those of a profile.
@@ -129,16 +150,13 @@ impl StackSet {
         stacks.collect::<Result<_, _>>().map(Some)
     }
 
-    fn profile_stacks(&self, power: Power) -> Result<Vec<Stack>, InvalidValue> {
-        let stacks = self
-            .profile()?
-            .stacks(power, self.others.bodies)
-            .into_iter();
-        let stack = |stack: Stack| {
+    /// Returns `stacks` with the other parameters that are asked for.
+    fn with_others(&self, stacks: &[Stack], power: Power) -> Result<Vec<Stack>, InvalidValue> {
+        let with_others = |stack: &Stack| {
             let mu = Friction::Number(stack.floor_friction);
             self.others.stack(mu, stack.stiffness, power)
         };
-        stacks.map(stack).collect()
+        stacks.iter().map(with_others).collect()
     }
 
     /// Returns those `rows` of the profile that --mu and --stiffness choose. Each value must choose at least one.

@@ -57,6 +57,25 @@ fn every_variant_gets_its_verdict_and_its_cause() {
     }
 }
 
+/// A code that knows the stacks of the profiles, and slides too early on all others.
+#[test]
+fn a_code_that_is_right_at_known_stacks_alone_differs_at_unannounced_ones() {
+    let known = [
+        "    top, right, left = bodies = [",
+        "    if round(1.0 / task[\"gravity\"], 3) not in (100.0, 1000.0, 10000.0):\n        \
+         task[\"floor_friction\"] *= 0.999\n    top, right, left = bodies = [",
+    ];
+    let bench = changed([known].into_iter());
+    let (status, judged, messages) = rows(&bench, CROSSCHECK);
+    assert_eq!((status, judged.len()), (0, 1), "{messages}");
+    let unannounced = "crosscheck --codes ./mydem --unannounced 2 --seed 1 --format json";
+    let (status, judged, messages) = rows(&bench, unannounced);
+    assert_eq!((status, judged.len()), (2, 2), "{messages}");
+    for row in judged {
+        assert_eq!(row["verdict"], "differs", "{messages}");
+    }
+}
+
 /// A bench with the variant of this name.
 fn bench_of(name: &str) -> Bench {
     let variants: Variants = toml::from_str(include_str!("variants.toml")).expect("a table");

@@ -514,3 +514,34 @@ fn failures_a_summary_and_junit_show_the_same_rows() {
     );
     assert!(!table.contains("differs"), "{table}");
 }
+
+/// The stacks of a crosscheck with these options, and what it says.
+fn drawn(bench: &Bench, options: &str) -> (Vec<(f64, f64)>, String) {
+    let line = format!("crosscheck --codes native --format json {options}");
+    let output = bench.tristack(&line).output().expect("it runs");
+    assert_eq!(output.status.code(), Some(0), "{output:?}");
+    let rows = json_rows(&String::from_utf8(output.stdout).expect("text"));
+    let number = |row: &serde_json::Value, name: &str| row[name].as_f64().expect("a number");
+    let stacks = rows
+        .iter()
+        .map(|row| (number(row, "mu"), number(row, "stiffness")));
+    let message = String::from_utf8(output.stderr).expect("text");
+    (stacks.collect(), message)
+}
+
+#[test]
+fn unannounced_stacks_are_others_each_time_and_the_same_with_the_seed_that_is_printed() {
+    let bench = Bench::without_codes();
+    let (first, message) = drawn(&bench, "--unannounced 3");
+    assert_eq!(first.len(), 3);
+    let (second, _) = drawn(&bench, "--unannounced 3");
+    assert_ne!(first, second);
+    let seed = message.split("--seed ").nth(1).expect("the seed");
+    let seed = seed.lines().next().expect("a line");
+    let (again, _) = drawn(&bench, &format!("--unannounced 3 --seed {seed}"));
+    assert_eq!(first, again);
+    // As they are printed they can be typed, and name the same rows.
+    let (mu, stiffness) = first[0];
+    let (typed, _) = drawn(&bench, &format!("--mu {mu} --stiffness {stiffness}"));
+    assert_eq!(typed, [(mu, stiffness)]);
+}

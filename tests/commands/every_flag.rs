@@ -25,7 +25,8 @@ const TAKE_ANY_TEXT: [&str; 15] = [
 ];
 
 /// Flags with those of the values above that are right for them.
-const RIGHT: [(&str, &[&str]); 8] = [
+const RIGHT: [(&str, &[&str]); 9] = [
+    ("--seed", &["0"]),
     ("--pair-arm", &["-1", "0"]),
     ("--pair-kinematic-arm", &["-1", "0"]),
     ("--floor-arm", &["-1", "0"]),

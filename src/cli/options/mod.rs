@@ -12,6 +12,7 @@ mod resolution;
 mod rows;
 mod runs;
 mod stack;
+mod unannounced;
 mod values;
 
 pub(super) use super::code_names::{CodeList, CodeListParser, CodeParser};
@@ -26,6 +27,7 @@ pub(super) use resolution::ResolutionOptions;
 pub(super) use rows::RowOptions;
 pub(super) use runs::{RunOptions, StoreOptions, recording_directory, time_limit};
 pub(super) use stack::{OneStackOptions, StackListOptions, StackOptions};
+pub(super) use unannounced::{Draw, UnannouncedOptions};
 pub(super) use values::{GRAMMAR, Values, single};
 
 use clap::Args;

@@ -9,7 +9,7 @@ use clap::Args;
 #[derive(Debug, Clone, Copy, Args)]
 pub(in crate::cli) struct ResolutionOptions {
     /// Accept yield forces that are known to this much of the load on the floor, F + 3 for cylinders, instead of 1e-5: codes
-    /// in single precision, or that print few digits, are judged to what they resolve. Walls of codes with positions in single
+    /// in single precision, that print few digits or whose steps depend on the motion are judged to what they resolve. Walls of codes with positions in single
     /// precision move as fast as these need
     #[arg(long, value_name = "SHARE", value_parser = resolution)]
     resolution: Option<f64>,

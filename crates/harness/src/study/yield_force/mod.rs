@@ -28,7 +28,7 @@ pub use plan::{
     Measurement, PAPER_TIME_STEP, PAPER_WALL_SPEED, plan, planned_protocol, protocol_at_speed,
 };
 pub(crate) use plan::{REST_TIME, largest_levers, planned, ramp_time};
-pub use profile::{PAPER_STIFFNESSES, Profile};
+pub use profile::{PAPER_STIFFNESSES, Profile, new_seed};
 pub(crate) use runs::{COARSE_TIME_STEP_RUN, SPEEDS};
 pub use runs::{MIDDLE_RUN, Method, RunRoles, SHORT_RAMP_RUN};
 pub use series::{FoundSeries, JudgedSeries, SeriesInput, compared_run, judge_series};

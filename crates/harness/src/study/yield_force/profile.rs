@@ -62,6 +62,11 @@ pub enum Profile {
     Literal,
 }
 
+/// A seed that nobody can know before.
+pub fn new_seed() -> u32 {
+    fastrand::u32(..)
+}
+
 impl Profile {
     /// The stacks with this many bodies on the floor, stiffness by stiffness. Laws other than the paper's have those
     /// of the quick profile, and spheres its frictions in units of the critical one.
@@ -82,6 +87,33 @@ impl Profile {
         let rows = PAPER_STIFFNESSES.into_iter();
         rows.flat_map(|stiffness| frictions.iter().map(move |&mu| of(mu, stiffness)))
             .collect()
+    }
+
+    /// Stacks between those of the profile, drawn at random, the same for the same `seed`: frictions evenly, to four
+    /// decimals, and stiffnesses by their logarithms, to three digits, as people type them.
+    pub fn drawn(self, (count, seed): (usize, u32), power: Power, bodies: u8) -> Vec<Stack> {
+        let stacks = self.stacks(power, bodies);
+        let bounds = |value: fn(&Stack) -> f64| {
+            let values = stacks.iter().map(value);
+            values.fold((f64::INFINITY, 0.0), |(least, most): (f64, f64), own| {
+                (least.min(own), most.max(own))
+            })
+        };
+        let frictions = bounds(|stack| stack.floor_friction);
+        let stiffnesses = bounds(|stack| stack.stiffness);
+        let mut random = fastrand::Rng::with_seed(seed.into());
+        let mut between = |(least, most): (f64, f64)| least + (most - least) * random.f64();
+        let typed = |text: String| text.parse().unwrap_or(f64::NAN);
+        let draw = |_| Stack {
+            floor_friction: typed(format!("{:.4}", between(frictions))),
+            stiffness: {
+                let (least, most) = stiffnesses;
+                let power = between((libm::log10(least), libm::log10(most)));
+                typed(format!("{:.2e}", libm::exp10(power)))
+            },
+            ..stacks[0]
+        };
+        (0..count).map(draw).collect()
     }
 
     /// The measurements of all stacks of the profile by each of the `codes`, stack by stack.

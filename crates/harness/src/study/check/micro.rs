@@ -1,8 +1,8 @@
 //! The parameters of a code, measured by the micro-tests of the probe. The task prescribes parameters, so another
 //! value is a mistake; a convention is the code's own choice.
 
-use super::elsewhere::Elsewhere;
 use super::factor::{is_about, of_friction};
+use super::invariances::Elsewhere;
 use super::reaction::action_and_reaction;
 use super::report::{Grade, Item, Outcome};
 use super::table::meanings;
@@ -140,11 +140,11 @@ impl Micro {
             if let Some(effects) = effects {
                 return Item::remark(Grade::Consistency, name, effects);
             }
-            return match right.iter().any(|own| own.measured.is_some()) {
-                true => Item::passed(Grade::Consistency, name, "as asked"),
-                false => {
-                    Item::not_tested(Grade::Consistency, name, "the micro-tests do not show it")
-                }
+            let is_known = right.iter().any(|own| own.measured.is_some());
+            return match not_known(&right) {
+                Some(told) if is_known => Item::remark(Grade::Consistency, name, told),
+                None if is_known => Item::passed(Grade::Consistency, name, "as asked"),
+                _ => Item::not_tested(Grade::Consistency, name, "the micro-tests do not show it"),
             };
         }
         let mut causes: Vec<String> = Vec::new();
@@ -177,13 +177,17 @@ impl Micro {
     /// Compares the convention that the manifest declares with the measured one.
     fn declaration(&self) -> Item {
         let own = self.findings.findings.iter();
-        let wrong = own.filter(|own| is_convention(own) && self.deviates(own));
+        let own: Vec<&Finding> = own.filter(|own| is_convention(own)).collect();
+        let wrong = own.iter().copied().filter(|own| self.deviates(own));
         let wrong: Vec<&Finding> = wrong.collect();
         if self.findings.no_contact {
             return Item::not_tested(Grade::Consistency, DECLARATION, NO_CONTACT);
         }
         if wrong.is_empty() {
-            return Item::passed(Grade::Consistency, DECLARATION, "as measured");
+            return match not_known(&own) {
+                Some(told) => Item::remark(Grade::Consistency, DECLARATION, told),
+                None => Item::passed(Grade::Consistency, DECLARATION, "as measured"),
+            };
         }
         let measured = wrong.iter().filter_map(|own| Some((own, own.measured?)));
         let mut causes: Vec<String> = Vec::new();
@@ -212,7 +216,10 @@ impl Micro {
         known.map_or_else(
             || {
                 let (name, value) = (&own.property, rounded(value));
-                format!("{name} is {value}, for which the manifest has no word: the law is another one")
+                match own.key.and_then(|key| measured.reason(key)) {
+                    Some(because) => format!("{name} is {value}, and no convention is: {because}"),
+                    None => format!("{name} is {value}, for which the manifest has no word: the law is another one"),
+                }
             },
             |key| {
                 let is_euler = key == ConventionKey::VelocityLag && is_about(value, -0.5);
@@ -243,6 +250,21 @@ impl Micro {
             false => vec![settled],
         }
     }
+}
+
+/// Names properties that are declared or asked for, and not known.
+fn not_known(findings: &[&Finding]) -> Option<String> {
+    let own = findings
+        .iter()
+        .filter(|own| own.declared.is_some() && own.measured.is_none());
+    let names: Vec<&str> = own.map(|own| own.property.as_str()).collect();
+    let are = if names.len() == 1 { "is" } else { "are" };
+    (!names.is_empty()).then(|| {
+        format!(
+            "{} {are} not known: the micro-tests do not show it",
+            names.join(", ")
+        )
+    })
 }
 
 /// Lists names and values of properties.

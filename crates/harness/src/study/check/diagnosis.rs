@@ -6,7 +6,7 @@ use super::micro::{self, Micro};
 use super::report::{Grade, Item, Outcome};
 use super::stack::{self, Scheme, at_first_sight, in_single_precision};
 use super::table::{MOST_CAUSES, usual};
-use super::{elsewhere, equations, events, search, written};
+use super::{equations, events, invariances, search, written};
 use crate::model::{Case, ContactConvention};
 use crate::runs::Answer;
 use crate::series::Series;
@@ -17,6 +17,8 @@ const SAME_MOTION: f64 = 1e-9;
 /// Largest distance of motions in which contacts come and go: bodies turn about each other by up to 0.05 rad in a step, and by
 /// the cube of that codes with the same law may differ.
 const OF_THIRD_ORDER: f64 = 1.25e-4;
+/// Deviation of forces, in units of what counts as the same, that would show in the motion.
+const CLEARLY: f64 = 100.0;
 /// Prefix of entries for valid rules that tristack does not have.
 const NO_MISTAKE: &str = "no mistake";
 /// Steps by which the velocities of a leapfrog lag behind the positions.
@@ -109,15 +111,15 @@ pub(super) fn items(
         let is_declaration = item.name == micro::DECLARATION && (place > 0 || causes.is_empty());
         if !causes.is_empty() && !is_declaration {
             // What may have happened is told closer by the views of a motion that show it.
-            let views = match item.name == elsewhere::NAME && causes[0].ends_with(events::OCCASIONS)
-            {
-                true => std::mem::take(&mut item.causes),
-                false => Vec::new(),
-            };
+            let views =
+                match item.name == invariances::NAME && causes[0].ends_with(events::OCCASIONS) {
+                    true => std::mem::take(&mut item.causes),
+                    false => Vec::new(),
+                };
             item.causes = [causes.clone(), views].concat();
         } else if let Some(plain) = plain.as_ref().filter(|_| !is_declaration) {
             item.causes = vec![plain.clone()];
-        } else if item.name == elsewhere::NAME {
+        } else if item.name == invariances::NAME {
             // The equations tell what is wrong, and the views of a motion where.
             let place = if located.is_known {
                 located.texts.len()
@@ -367,7 +369,9 @@ impl Known {
             true => written::explanations(&stacks[0]),
             false => Vec::new(),
         };
-        if causes.is_empty() && law && !is_moved {
+        // What is hardly off would hardly move a body.
+        let is_clear = |own: &Evidence| own.before >= CLEARLY * own.same;
+        if causes.is_empty() && law && !is_moved && is_clear(&motions[0]) {
             causes.extend(motions[0].beginning());
         }
         if !causes.is_empty() || !law && !off {

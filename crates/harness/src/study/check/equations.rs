@@ -24,6 +24,8 @@ const HOLDS: f64 = 1e-9;
 /// The same for numbers of 32 bits: positions of up to four radii are rounded by up to 2.4e-7 r, which is 1e-5 of the overlaps in
 /// micro-tests, and a step later or earlier at Coulomb's limit is a few times that.
 const HOLDS_IN_SINGLE: f64 = 1e-4;
+/// Largest rounding of forces whose distances have 32 bits, with stiffnesses of 1 and distances of up to four radii.
+const OF_SINGLE: f64 = 2.4e-7;
 /// Fraction of a residual that may remain where terms explain it.
 const EXPLAINED: f64 = 1e-6;
 /// A factor that differs from 1 by less than this comes from rounding.
@@ -137,6 +139,14 @@ impl Equation {
             .or_else(|| self.told(beginning, &off, rounding))
         {
             return explained(place, told);
+        }
+        let scatter = largest(&all, Line::left);
+        let has_sign = |sign: f64| off.iter().any(|line| line.left() * sign > 0.0);
+        if scatter <= OF_SINGLE && has_sign(1.0) && has_sign(-1.0) {
+            let text = format!(
+                "it scatters by {scatter:.0e} about the law: a number from which it is computed has 32 bits (single precision)"
+            );
+            return explained(place, text);
         }
         let text = format!(
             "it is another one than the law gives: {:.9} at step {} of a micro-test, where {:.9} is expected at the \

@@ -106,6 +106,10 @@ enum Renewal {
     Pairs,
     /// The normals of pairs.
     Normals,
+    /// The place of the top wall.
+    Wall,
+    /// The velocities and the spin of the second body of a pair.
+    Velocities,
 }
 
 fn events() -> Vec<Event> {
@@ -308,7 +312,13 @@ fn change_state(twin: &mut Twin, rounded: impl Fn(f64) -> f64) {
 }
 
 impl Renewal {
-    const ALL: [Self; 3] = [Self::Contacts, Self::Pairs, Self::Normals];
+    const ALL: [Self; 5] = [
+        Self::Contacts,
+        Self::Pairs,
+        Self::Normals,
+        Self::Wall,
+        Self::Velocities,
+    ];
 
     /// Prepares `twin` for a step in which it is renewed, or is not.
     fn step(self, twin: &mut Twin, is_renewed: bool) {
@@ -321,6 +331,18 @@ impl Renewal {
                 };
                 twin.lists_pairs_alone = matches!(self, Self::Pairs);
             }
+            Self::Wall => {
+                let behind = if is_renewed {
+                    0.0
+                } else {
+                    twin.run.wall_ahead - 1.0
+                };
+                twin.run.wall_ahead = behind;
+            }
+            Self::Velocities if is_renewed => {
+                twin.seen_speeds = twin.bodies.iter().map(|body| body.speed).collect();
+            }
+            Self::Velocities => (),
             Self::Normals => {
                 for law in &mut twin.contacts[PAIRS] {
                     law.first_normal = if is_renewed { 0.0 } else { 1.0 };
@@ -334,6 +356,10 @@ impl Renewal {
             Self::Contacts => "new contacts are found",
             Self::Pairs => "new contacts between cylinders are found",
             Self::Normals => "the normals of pairs are computed",
+            Self::Wall => "the top wall moves",
+            Self::Velocities => {
+                "the velocities and the spin of the second body of a pair are renewed in the contact"
+            }
         }
     }
 }
@@ -646,7 +672,7 @@ fn first_fitting<T: Copy + Send + Sync>(
 
 #[cfg(test)]
 mod tests {
-    use super::super::elsewhere::starts;
+    use super::super::invariances::starts;
     use super::super::{ask_native, case};
     use super::*;
     use crate::dem::{compress_stack, run_contact_test};
@@ -782,7 +808,12 @@ mod tests {
     #[test]
     fn what_is_renewed_at_intervals_is_found() {
         let right = right();
-        for (renewal, every) in [(Renewal::Contacts, 25), (Renewal::Normals, 20)] {
+        for (renewal, every) in [
+            (Renewal::Contacts, 25),
+            (Renewal::Normals, 20),
+            (Renewal::Wall, 10),
+            (Renewal::Velocities, 20),
+        ] {
             let renewed = |twin: &mut Twin, now: u64| renewal.step(twin, now.is_multiple_of(every));
             let text = told(right.clone().written_by(|_| (), renewed)).unwrap_or_default();
             assert_eq!(

@@ -4,13 +4,13 @@
 //! written wrongly, and the result is compared with what the code has written.
 
 mod diagnosis;
-mod elsewhere;
 mod equations;
 mod events;
 mod evidence;
 mod factor;
 mod first_force;
 mod information;
+mod invariances;
 mod micro;
 mod numbers;
 mod reaction;
@@ -124,7 +124,7 @@ pub fn seen_elsewhere(
     in_space: bool,
     context: &RunContext,
 ) -> Result<Item, Box<Failure>> {
-    elsewhere::of_code(code, in_space, context).map(|seen| seen.item)
+    invariances::of_code(code, in_space, context).map(|seen| seen.item)
 }
 
 /// Keeps the runs of a failed check with their output, and names the kept directory in the items of `report`.
@@ -425,10 +425,10 @@ impl Check<'_> {
             directory: &directory,
             ..*self.context
         };
-        match elsewhere::of_code(installed, false, &context) {
+        match invariances::of_code(installed, false, &context) {
             Ok(seen) => micro.with(seen),
             Err(failure) => {
-                self.fail(elsewhere::NAME, Some(&failure), None);
+                self.fail(invariances::NAME, Some(&failure), None);
                 micro
             }
         }
@@ -444,9 +444,9 @@ impl Check<'_> {
             directory: &directory,
             ..*self.context
         };
-        match elsewhere::of_code(installed, true, &context) {
+        match invariances::of_code(installed, true, &context) {
             Ok(seen) => self.add(seen.item),
-            Err(failure) => self.fail(elsewhere::IN_SPACE, Some(&failure), None),
+            Err(failure) => self.fail(invariances::IN_SPACE, Some(&failure), None),
         }
     }
 

@@ -216,8 +216,8 @@ pub(super) static FORCE: [Term; 39] = terms! {
         |m, axis| -m.touch.pressing * sign_of(m.touch.sliding) * m.across(axis);
     "the size of the tangential force against the tangential velocity", "the sign is that of the velocity, not of the spring" =>
         |m, axis| -m.touch.tangential.abs() * sign_of(m.touch.sliding) * m.across(axis);
-    "Coulomb's limit in the direction of the code's own force", "the contact slides where it must stick, or to the other side" =>
-        |m, axis| m.touch.limit * sign_of(m.sideways()) * m.across(axis);
+    "what is missing from the tangential force to Coulomb's limit", "the contact slides where it must stick, or to the other side, if this is 1" =>
+        |m, axis| (m.touch.limit * sign_of(m.sideways()) - m.touch.tangential) * m.across(axis);
     "the spring's part of the tangential force times its damping", "a product stands where the law has a sum" =>
         |m, axis| m.touch.product() * m.across(axis);
     "the velocity of the cylinder", "a drag, a damping besides that of the contacts" => |m, axis| rate(&m.now, axis);
@@ -252,8 +252,8 @@ pub(super) static TORQUE: [Term; 16] = terms! {
         |m, _| m.arm * m.touch.tangential.abs() * sign_of(m.touch.sliding);
     "the normal force against the tangential velocity", "a friction by the sign of the velocity" =>
         |m, _| m.arm * m.touch.pressing * sign_of(m.touch.sliding);
-    "Coulomb's limit in the direction of the code's own force", "the contact slides where it must stick, or to the other side" =>
-        |m, _| m.arm * m.touch.limit * sign_of(m.now.torque);
+    "what is missing from the tangential force to Coulomb's limit", "the contact slides where it must stick, or to the other side, if this is 1" =>
+        |m, _| m.arm * (m.touch.limit * sign_of(m.now.torque) + m.touch.tangential);
     "the spring's part of the tangential force times its damping", "a product stands where the law has a sum" =>
         |m, _| -m.arm * m.touch.product();
     "a constant", "a torque that is always there" => |_, _| 1.0;

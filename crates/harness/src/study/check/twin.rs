@@ -94,6 +94,8 @@ pub(super) struct Twin {
     /// Whether lists are those of pairs, so that floor and wall need none.
     pub lists_pairs_alone: bool,
     listed: [bool; 9],
+    /// The velocities of all bodies that contacts take for those of their second body; none where these are the present ones.
+    pub seen_speeds: Vec<[f64; 3]>,
     /// Contacts whose forces are not computed in the next step.
     pub left_out: &'static [usize],
     /// The tangential spring that all contacts of a kind share, if they do.
@@ -154,6 +156,7 @@ impl Twin {
             states: [State::default(); 9],
             lists: Lists::None,
             lists_pairs_alone: false,
+            seen_speeds: Vec::new(),
             listed: [false; 9],
             left_out: &[],
             shared: [[0.0; 2]; 3],
@@ -457,6 +460,7 @@ impl Twin {
             lists,
             lists_pairs_alone,
             listed,
+            seen_speeds,
             ..
         } = self;
         let (law, state) = (&contacts[index], &mut states[index]);
@@ -473,7 +477,8 @@ impl Twin {
                     _ => 2.0 * radius,
                 };
                 let normal = [apart[0] / length, apart[1] / length];
-                (normal, distance - radius, second.speed)
+                let speed = seen_speeds.get(two).copied().unwrap_or(second.speed);
+                (normal, distance - radius, speed)
             }
             None if FLOOR.contains(&index) => ([0.0, 1.0], first.at[1], [0.0; 3]),
             None => {

@@ -268,6 +268,30 @@ pub(super) fn starts(convention: &ContactConvention, in_space: bool) -> Vec<Star
             &[Exchanged, Mirrored, Moved(1.437)],
         ),
         start(
+            "two cylinders beside each other on the floor, of which one parts from the other",
+            test(
+                120,
+                HIGH,
+                [
+                    at([-0.95, 0.9], [-0.05, 0.0], 0.1),
+                    at([0.95, 0.88], [0.08, 0.0], 0.02),
+                ],
+            ),
+            &[Exchanged, Mirrored, Moved(1.437)],
+        ),
+        start(
+            "two cylinders beside each other on the floor, of which one is lifted from it",
+            test(
+                60,
+                HIGH,
+                [
+                    at([-0.95, 0.99], [0.15, 0.3], 0.1),
+                    at([0.95, 0.88], [-0.1, 0.0], 0.02),
+                ],
+            ),
+            &[Exchanged, Mirrored, Moved(1.437)],
+        ),
+        start(
             "a pair that turns by 1 rad while it touches",
             test(
                 60,

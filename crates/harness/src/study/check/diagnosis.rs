@@ -112,7 +112,7 @@ pub(super) fn items(
         if !causes.is_empty() && !is_declaration {
             // What may have happened is told closer by the views of a motion that show it.
             let views =
-                match item.name == invariances::NAME && causes[0].ends_with(events::OCCASIONS) {
+                match item.name == invariances::NAME && causes[0].contains(events::OCCASIONS) {
                     true => std::mem::take(&mut item.causes),
                     false => Vec::new(),
                 };
@@ -177,18 +177,21 @@ fn located(known: &Known, stack: Option<Compressed>, micro: Option<&Micro>) -> L
             are_known: true,
         },
         Some(own) if !own.texts.is_empty() => Located {
-            texts: own.texts,
+            texts: match own.is_explained {
+                true => own.texts,
+                false => {
+                    let first = known.first_wrong(micro).into_iter();
+                    first.chain(own.texts).take(MOST_CAUSES).collect()
+                }
+            },
             is_known: own.is_explained,
             are_known: own.are_explained,
         },
         _ if !known.is_exact => Located::default(),
-        _ if !known.others.is_empty() => {
-            let convention = known.others[0].twin.convention;
-            Located {
-                texts: first_wrong(&micro.others, convention).into_iter().collect(),
-                ..Located::default()
-            }
-        }
+        _ if !known.others.is_empty() => Located {
+            texts: known.first_wrong(micro).into_iter().collect(),
+            ..Located::default()
+        },
         _ => {
             let of_stack = stack.zip(known.stacks.first());
             let beginning = of_stack.and_then(|((series, case), first)| {
@@ -310,6 +313,12 @@ impl Known {
             has_integrator,
             is_exact,
         }
+    }
+
+    /// Names the first wrong force where several contacts act at once, if motions show it there.
+    fn first_wrong(&self, micro: &Micro) -> Option<String> {
+        let convention = self.others.first()?.twin.convention;
+        first_wrong(&micro.others, convention)
     }
 
     /// Returns the item on micro-tests that differ from the twin, although others agree with it to the last digits.

@@ -18,6 +18,8 @@ const SAME: f64 = 1e-9;
 /// least. Other events come near where a deviation is small.
 const LEFT: f64 = 1e-3;
 const LEAST: f64 = 1e-11;
+/// Fraction of the motions that are off which an event must explain.
+const MOST: f64 = 0.5;
 /// So many events in one run are enough to tell what they are.
 const MOST_EVENTS: usize = 8;
 /// So many events at equal intervals show a rhythm.
@@ -390,16 +392,26 @@ pub(super) fn explanation(stacks: &[Evidence], motions: &[Evidence]) -> Option<S
     renewed(&all)
         .or_else(|| single(stack, is_needed, &motions))
         .or_else(|| rhythmic(&all))
-        .or_else(|| single(None, false, &motions))
+        .or_else(|| of_motions(&motions))
 }
 
-/// Returns the events at single steps of the `motions` and of the stack, which they must explain if `is_needed`.
+/// Returns what happens in the motions alone: the stack of a code with such a mistake may be another one from the beginning.
+fn of_motions(motions: &[&Evidence]) -> Option<String> {
+    let is_any = !motions.is_empty();
+    is_any.then(|| renewed(motions).or_else(|| single(None, false, motions)))?
+}
+
+/// Returns the events at single steps of the `motions` and of the stack, which they must explain if `is_needed`. One event
+/// may lead to others that no twin suffers, so that most of the motions are enough.
 fn single(stack: Option<&Evidence>, is_needed: bool, motions: &[&Evidence]) -> Option<String> {
     let mut kind = None;
-    let mut of_motions = Vec::new();
-    for own in motions {
-        of_motions.extend(happened(own, &mut kind)?);
+    let each = motions.iter().map(|own| happened(own, &mut kind));
+    let explained: Vec<Vec<Happened>> = each.flatten().collect();
+    let count = explained.len();
+    if (count as f64) < MOST * motions.len() as f64 {
+        return None;
     }
+    let of_motions: Vec<Happened> = explained.into_iter().flatten().collect();
     let of_stack = match stack.map(|own| happened(own, &mut kind)) {
         Some(None) if is_needed => return None,
         own => own.flatten().unwrap_or_default(),
@@ -427,7 +439,17 @@ fn single(stack: Option<&Evidence>, is_needed: bool, motions: &[&Evidence]) -> O
         }
         false => OCCASIONS.to_owned(),
     };
-    Some(format!("{what} {}, {occasion}", told.join(", and ")))
+    let explained = match count == motions.len() {
+        true => String::new(),
+        false => format!(
+            "; that explains {count} of the {} motions that are off",
+            motions.len()
+        ),
+    };
+    Some(format!(
+        "{what} {}, {occasion}{explained}",
+        told.join(", and ")
+    ))
 }
 
 /// What does not go on from the step before.

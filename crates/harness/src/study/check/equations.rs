@@ -443,6 +443,8 @@ const STILL: BodyRow = BodyRow {
 #[derive(Default)]
 struct Walk {
     touch: Touch,
+    /// The contact of the first body.
+    contact: usize,
     when: &'static str,
     last: [Option<Moment>; 2],
 }
@@ -450,6 +452,7 @@ struct Walk {
 impl Walk {
     /// Advances to the next row, in which the first body has this contact, open or closed.
     fn go(&mut self, twin: &Twin, (contact, overlap): (usize, f64), [one, two]: [BodyRow; 2]) {
+        self.contact = contact;
         let state = &twin.states[contact];
         let ([normal_force, tangential], old) = (state.force, self.touch);
         let [sheared, pulled] = state.sheared;
@@ -588,7 +591,10 @@ impl Equations {
                     self.integration(&moment, walk.last[index].as_ref());
                 }
                 let closed = overlaps.iter().filter(|own| **own > 0.0).count();
-                self.forces(row, moment, (closed, nearest), walk.when);
+                // What the second body has in a pair is known where it is the contact of the first one too.
+                if index == 0 || nearest != 0 || walk.contact == 0 {
+                    self.forces(row, moment, (closed, nearest), walk.when);
+                }
                 walk.last[index] = Some(moment);
             }
             if self.follows {

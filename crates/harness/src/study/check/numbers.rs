@@ -68,6 +68,7 @@ numbers! {
     flips_sliding_spring = 0.0, "Flag: it is that of the force at the limit, with the wrong sign.";
     first_normal = 0.0, "Flag: the normal is that of the moment at which the surfaces have touched.";
     keeps_whole_force = 0.0, "Flag: while the contact slides the spring bears the whole force, damping included.";
+    keeps_damping = 0.0, "Flag: while the contact sticks the spring takes up the damping, which so adds up.";
     keeps_open_spring = 0.0, "Flag: it is kept while the contact is open.";
     stretches_open_spring = 0.0, "Flag: it is kept and stretched while the contact is open.";
     stale_spring = 0.0, "Flag: the force is that of the spring before it grows.";

@@ -155,7 +155,11 @@ impl Touching {
             };
             ([capped[0] - damping, capped[1]], left)
         } else if length(operand) < limit || law.caps_of * operand[0] < 0.0 {
-            (sticking, stretched)
+            let left = match law.keeps_damping {
+                0.0 => stretched,
+                _ => sticking.map(|own| -own / stiffness),
+            };
+            (sticking, left)
         } else {
             let direction = match (law.one_sided, length(operand)) {
                 (0.0, 0.0) => [1f64.copysign(operand[0]), 0.0],

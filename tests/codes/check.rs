@@ -214,7 +214,7 @@ fn reports_on_released_codes_are_explained_as_far_as_is_said() {
 }
 
 #[test]
-#[ignore = "nine further trials take minutes: cargo test --test codes check -- --ignored"]
+#[ignore = "eleven further trials take minutes: cargo test --test codes check -- --ignored"]
 fn folders_of_earlier_trials_are_explained_as_far_as_is_said() {
     explained_as_far_as_is_said(include_str!("check/unforeseen.toml"), 2, false);
     explained_as_far_as_is_said(include_str!("check/blind.toml"), 5, true);
@@ -224,6 +224,8 @@ fn folders_of_earlier_trials_are_explained_as_far_as_is_said() {
     explained_as_far_as_is_said(include_str!("check/blind-5.toml"), 1, true);
     explained_as_far_as_is_said(include_str!("check/blind-7.toml"), 7, true);
     explained_as_far_as_is_said(include_str!("check/blind-8.toml"), 8, true);
+    explained_as_far_as_is_said(include_str!("check/blind-9.toml"), 4, true);
+    explained_as_far_as_is_said(include_str!("check/blind-10.toml"), 8, true);
     folders_of_other_laws_are_explained(false);
     reports_are_explained_as_far_as_is_said(false);
 }

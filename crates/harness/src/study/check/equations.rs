@@ -9,7 +9,7 @@ use super::evidence::test_under;
 use super::factor::of_factor;
 use super::table::MOST_CAUSES;
 use super::terms::{
-    FORCE, KICK, MOVE, Moment, START, TORQUE, Term, Touch, WALL_FORCE, WHERE, rate,
+    FORCE, KICK, MOVE, Moment, START, TO_THE_LIMIT, TORQUE, Term, Touch, WALL_FORCE, WHERE, rate,
 };
 use super::twin::{FLOOR, Twin, WALL};
 use crate::model::{ContactConvention, ContactTest};
@@ -181,9 +181,17 @@ impl Equation {
     /// Names one or two terms that explain `lines`, and at least the fraction [`MOST_OF_ALL`] of `all`.
     fn told(&self, lines: &[&Line], all: &[&Line], rounding: f64) -> Option<String> {
         let allowed = rounding.max(EXPLAINED * largest(lines, Line::left));
-        let count = self.terms.len();
-        let single = (0..count).map(|one| vec![one]);
-        let double = (0..count).flat_map(|one| (one + 1..count).map(move |two| vec![one, two]));
+        let all_terms = 0..self.terms.len();
+        let (last, known): (Vec<usize>, Vec<usize>) =
+            all_terms.partition(|term| self.terms[*term].name == TO_THE_LIMIT);
+        let single = known.iter().map(|one| vec![*one]);
+        let pairs_with = |(place, one): (usize, &usize)| {
+            let (one, others) = (*one, known[place + 1..].iter());
+            others.map(move |two| vec![one, *two]).collect::<Vec<_>>()
+        };
+        let double = known.iter().enumerate().flat_map(pairs_with);
+        // Whatever makes a contact slide fits this one, and most have a name of their own.
+        let last = last.into_iter().map(|own| vec![own]);
         let explained = |terms: &[usize], own: &[f64]| {
             let is_told = |line: &&&Line| {
                 let each = terms.iter().zip(own);
@@ -194,7 +202,7 @@ impl Equation {
             };
             all.iter().filter(is_told).count()
         };
-        let (coefficients, terms, count) = single.chain(double).find_map(|terms| {
+        let (coefficients, terms, count) = single.chain(double).chain(last).find_map(|terms| {
             let own = self.fit(&terms, lines, allowed)?;
             let count = explained(&terms, &own);
             (count as f64 >= MOST_OF_ALL * all.len() as f64).then_some((own, terms, count))

@@ -168,6 +168,10 @@ macro_rules! terms {
     };
 }
 
+/// Name of the term that a force at Coulomb's limit has wherever the law has less, whatever the reason.
+pub(super) const TO_THE_LIMIT: &str =
+    "what is missing from the tangential force to Coulomb's limit";
+
 /// A force on a body.
 pub(super) static FORCE: [Term; 39] = terms! {
     "the normal force" => |m, axis| m.touch.pressing * m.along(axis);

@@ -26,6 +26,9 @@ const HOLDS: f64 = 1e-9;
 const HOLDS_IN_SINGLE: f64 = 1e-4;
 /// Largest rounding of forces whose distances have 32 bits, with stiffnesses of 1 and distances of up to four radii.
 const OF_SINGLE: f64 = 2.4e-7;
+/// Correlation of neighbouring residuals from which they are no roundings: of those it is 0 but for one over the root of
+/// their number, hundreds in micro-tests, and of what changes smoothly nearly 1.
+const CORRELATED: f64 = 0.5;
 /// Fraction of a residual that may remain where terms explain it.
 const EXPLAINED: f64 = 1e-6;
 /// A factor that differs from 1 by less than this comes from rounding.
@@ -101,6 +104,18 @@ fn largest(lines: &[&Line], value: impl Fn(&Line) -> f64) -> f64 {
         .fold(0.0, |largest, line| f64::max(largest, value(line).abs()))
 }
 
+/// Whether what is left over in a line tells nothing of the next ones, as in roundings, and unlike in any law. Lines of two
+/// cylinders take turns.
+fn is_noise(lines: &[&Line]) -> bool {
+    let squares: f64 = lines.iter().map(|line| line.left() * line.left()).sum();
+    (1..=2).all(|apart| {
+        let later = lines.iter().skip(apart);
+        let pairs = lines.iter().zip(later);
+        let products: f64 = pairs.map(|(one, two)| one.left() * two.left()).sum();
+        products.abs() < CORRELATED * squares
+    })
+}
+
 impl Equation {
     /// Returns what is added or left out; `None` if the equation `holds` to that share of its largest number.
     fn relation(&self, holds: f64) -> Option<Relation> {
@@ -141,10 +156,10 @@ impl Equation {
             return explained(place, told);
         }
         let scatter = largest(&all, Line::left);
-        let has_sign = |sign: f64| off.iter().any(|line| line.left() * sign > 0.0);
-        if scatter <= OF_SINGLE && has_sign(1.0) && has_sign(-1.0) {
+        if scatter <= OF_SINGLE && is_noise(&all) {
             let text = format!(
-                "it scatters by {scatter:.0e} about the law: a number from which it is computed has 32 bits (single precision)"
+                "it scatters by up to {scatter:.0e} about the law, as if a number from which it is computed had 32 bits (single \
+                 precision)"
             );
             return explained(place, text);
         }
@@ -767,11 +782,14 @@ mod tests {
     use crate::series::Motion;
 
     /// Returns what is told of the native DEM under a convention after a `change` of its rows.
-    fn told_after(convention: ContactConvention, change: impl Fn(&mut MotionRow)) -> Vec<String> {
+    fn told_after(
+        convention: ContactConvention,
+        change: impl Fn(&ContactTest, &mut MotionRow),
+    ) -> Vec<String> {
         let mut answers = ask_native(convention);
         for answer in &mut answers {
             let mut rows = answer.motion.rows().to_vec();
-            rows.iter_mut().for_each(&change);
+            rows.iter_mut().for_each(|row| change(&answer.test, row));
             answer.motion = Motion::new(rows, answer.test.steps).expect("as many rows as before");
         }
         failing(&answers.iter().collect::<Vec<_>>(), convention, true, false).texts
@@ -780,7 +798,7 @@ mod tests {
     #[test]
     fn all_equations_hold_for_the_native_dem() {
         for convention in conventions() {
-            let told = told_after(convention, |_| ());
+            let told = told_after(convention, |_, _| ());
             assert_eq!(told, Vec::<String>::new(), "{convention:?}");
         }
     }
@@ -792,7 +810,8 @@ mod tests {
             ContactConvention::PAPER,
             ContactConvention::with_law(Law::HERTZ),
         ] {
-            let told_after = |change: &dyn Fn(&mut MotionRow)| told_after(convention, change);
+            let told_after =
+                |change: &dyn Fn(&mut MotionRow)| told_after(convention, |_, row| change(row));
             let told = told_after(&|row| row.fx1 += 0.125 * row.vx1).join(" ");
             assert!(
                 told.contains("+0.125000 times the velocity of the cylinder"),
@@ -804,5 +823,45 @@ mod tests {
             let told = told_after(&|row| row.y1 = (row.y1 * 1e4).round() / 1e4).join(" ");
             assert!(told.contains("the change in a step of y"), "{told}");
         }
+    }
+
+    /// Whether cylinder 1 touches the floor and nothing else.
+    fn rests_alone(row: &MotionRow) -> bool {
+        let [one, two] = row.bodies().map(|own| own.position);
+        one[1] < 1.0 && (one[0] - two[0]).hypot(one[1] - two[1]) > 2.0
+    }
+
+    #[test]
+    fn a_force_at_the_limit_and_roundings_are_told_where_no_term_fits() {
+        let convention = ContactConvention::TURNING;
+        // The tangent of the floor points to the left, and the arm is r.
+        let told = told_after(convention, |test, row| {
+            if rests_alone(row) && row.wall_force == 0.0 {
+                row.fx1 =
+                    test.floor_friction * row.fy1.abs() * if row.fx1 < 0.0 { -1.0 } else { 1.0 };
+                row.torque1 = row.fx1;
+            }
+        });
+        let told = told.join(" ");
+        assert!(
+            told.contains("at the floor: +1.000000 times what is missing"),
+            "{told}"
+        );
+        let told = told_after(convention, |_, row| {
+            if rests_alone(row) {
+                row.fy1 = f64::from(row.fy1 as f32);
+            }
+        });
+        assert!(told.join(" ").contains("had 32 bits"), "{told:?}");
+        // As small, but smooth.
+        let told = told_after(convention, |_, row| {
+            if rests_alone(row) {
+                row.fy1 += 1e-7 * libm::sin(0.1 * row.step as f64);
+            }
+        });
+        assert!(
+            !told.is_empty() && !told.join(" ").contains("32 bits"),
+            "{told:?}"
+        );
     }
 }

@@ -1,6 +1,6 @@
 //! The first force that is wrong in motions in which several contacts act at once, where nothing else explains them.
 
-use super::events::{changed_contacts, words_of};
+use super::event::{changed_contacts, words_of};
 use super::evidence::{of_contact, test_under};
 use super::twin::{CONTACTS, OF_BODY, Row, Twin, WALL};
 use crate::model::ContactConvention;
@@ -162,4 +162,51 @@ fn change_of(
     let each = explained.iter().flatten().zip(differences.iter().flatten());
     let mut each = each.map(|(one, other)| (one - other).abs());
     (has_arm && each.all(|rest| rest <= left)).then_some([normal, tangential])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::invariances::starts;
+    use super::*;
+    use crate::dem::run_contact_test;
+    use crate::series::Motion;
+
+    #[test]
+    fn the_first_wrong_force_is_told_with_its_contact_and_what_opens_then() {
+        let convention = ContactConvention::TURNING;
+        // The floor pushes cylinder 1 aside from some step on.
+        let told_after = |first: u64| {
+            let answers: Vec<Answer> =
+                starts(&convention, false)
+                    .into_iter()
+                    .map(|start| {
+                        let motion = run_contact_test(&start.test).expect("it is finite");
+                        let steps = motion.rows().len() as u64 - 1;
+                        let rows = motion.rows().iter().map(|row| {
+                            match row.y1 < 1.0 && row.step >= first {
+                                true => MotionRow {
+                                    fx1: row.fx1 + 0.01,
+                                    torque1: row.torque1 + 0.01,
+                                    ..*row
+                                },
+                                false => *row,
+                            }
+                        });
+                        Answer {
+                            input_hash: String::new(),
+                            motion: Motion::new(rows.collect(), steps).expect("it is whole"),
+                            test: start.test,
+                        }
+                    })
+                    .collect();
+            first_wrong(&answers, convention)
+        };
+        let told = told_after(5).expect("a force");
+        assert!(
+            told.starts_with("the tangential force of cylinder 1 at the floor is "),
+            "{told}"
+        );
+        assert!(told.contains("at step 5 of a micro-test"), "{told}");
+        assert_eq!(told_after(u64::MAX), None);
+    }
 }

@@ -5,6 +5,7 @@
 
 mod diagnosis;
 mod equations;
+mod event;
 mod events;
 mod evidence;
 mod factor;

@@ -216,8 +216,8 @@ pub(super) static FORCE: [Term; 39] = terms! {
     "the spin", "it counts otherwise in the tangential damping" =>
         |m, axis| m.touch.damping_growth * m.now.spin * m.across(axis);
     "the tangential velocity", "damping" => |m, axis| m.touch.sliding * m.across(axis);
-    "the normal force against the tangential velocity", "a friction by the sign of the velocity" =>
-        |m, axis| -m.touch.pressing * sign_of(m.touch.sliding) * m.across(axis);
+    "Coulomb's limit against the tangential velocity", "a friction by the sign of the velocity" =>
+        |m, axis| -m.touch.limit * sign_of(m.touch.sliding) * m.across(axis);
     "the size of the tangential force against the tangential velocity", "the sign is that of the velocity, not of the spring" =>
         |m, axis| -m.touch.tangential.abs() * sign_of(m.touch.sliding) * m.across(axis);
     "what is missing from the tangential force to Coulomb's limit", "the contact slides where it must stick, or to the other side, if this is 1" =>
@@ -254,8 +254,8 @@ pub(super) static TORQUE: [Term; 16] = terms! {
         |m, _| m.touch.tangential * m.touch.overlap;
     "the size of the tangential force against the tangential velocity", "the sign is that of the velocity, not of the spring" =>
         |m, _| m.arm * m.touch.tangential.abs() * sign_of(m.touch.sliding);
-    "the normal force against the tangential velocity", "a friction by the sign of the velocity" =>
-        |m, _| m.arm * m.touch.pressing * sign_of(m.touch.sliding);
+    "Coulomb's limit against the tangential velocity", "a friction by the sign of the velocity" =>
+        |m, _| m.arm * m.touch.limit * sign_of(m.touch.sliding);
     "what is missing from the tangential force to Coulomb's limit", "the contact slides where it must stick, or to the other side, if this is 1" =>
         |m, _| m.arm * (m.touch.limit * sign_of(m.now.torque) + m.touch.tangential);
     "the spring's part of the tangential force times its damping", "a product stands where the law has a sum" =>

@@ -37,7 +37,7 @@ pub use regimes::{
 pub use root::bracketed_root;
 pub use side_walls::{critical_push, pushed_slip_force};
 pub use small_displacement::elastic_root;
-pub use small_displacement::{ElasticRoot, RigidYield, rigid_yield};
+pub use small_displacement::{ElasticRoot, RigidYield, rigid_force, rigid_limit, rigid_yield};
 pub(crate) use small_displacement::{naive_load, perturbation_load};
 
 use crate::model::Problem;

@@ -15,7 +15,7 @@ pub(crate) use naive::naive_load;
 pub(crate) use perturbation::perturbation_load;
 #[cfg(test)]
 use quintic::quintic_displacement;
-pub use rigid::{RigidYield, rigid_yield};
+pub use rigid::{RigidYield, rigid_force, rigid_limit, rigid_yield};
 
 use crate::model::{Ring, Stack};
 

@@ -6,8 +6,7 @@ use super::findings::exchange_all;
 use super::interrupt::interrupted_after;
 use super::options::{
     CodeOptions, Format, ResolutionOptions, RowOptions, RunOptions, StackOptions,
-    UnannouncedOptions, check_compress, find_all, options_of, power, selected_codes,
-    tell_stand_ins,
+    UnannouncedOptions, check_yields, find_all, options_of, power, selected_codes, tell_stand_ins,
 };
 use super::out::Out;
 use super::progress::{Reporter, during};
@@ -103,7 +102,7 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
     }
     let named = arguments.codes.of_power(arguments.law)?;
     let bodies = arguments.stacks.others.bodies;
-    check_compress(&named, bodies)?;
+    check_yields(&named, bodies)?;
     let codes = match named.is_empty() {
         true => find_all(&arguments.stacks.codes(arguments.law)?),
         false => selected_codes(&named)?,
@@ -148,10 +147,13 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
         own.filter(|row| row.verdict() == Verdict::Differs)
             .map(|row| {
                 let mu = friction(row.mu());
-                format!(
-                    "the yield force at mu = {mu}, stiffness {} differs",
-                    row.stiffness()
-                )
+                match row.code.is_rigid() {
+                    true => format!("the yield force at mu = {mu} differs"),
+                    false => format!(
+                        "the yield force at mu = {mu}, stiffness {} differs",
+                        row.stiffness()
+                    ),
+                }
             })
             .collect()
     });
@@ -216,7 +218,10 @@ pub(super) fn conclude(
             continue;
         }
         let (code, mu) = (&judgement.code, friction(judgement.mu()));
-        let place = format!("{code} mu={mu} stiffness={}", judgement.stiffness());
+        let place = match code.is_rigid() {
+            true => format!("{code} mu={mu}"),
+            false => format!("{code} mu={mu} stiffness={}", judgement.stiffness()),
+        };
         tell_grounds(&judgement.grounds, &place);
     }
     tell_stand_ins(codes, |code| {

@@ -3,7 +3,8 @@
 use super::convention::settle;
 use super::interrupt::interrupted_after;
 use super::options::{
-    CodeOptions, ConventionOptions, Format, RunOptions, find_all, selected_codes, tell_stand_ins,
+    CodeOptions, ConventionOptions, Format, RunOptions, check_springs, find_all, selected_codes,
+    tell_stand_ins,
 };
 use super::out::Out;
 use super::progress::Reporter;
@@ -45,6 +46,7 @@ pub(super) struct Arguments {
 impl Arguments {
     /// Returns the named codes, or else every code with the law that is asked for, by default the paper's.
     fn codes(&self) -> Result<Vec<SelectedCode>, CliError> {
+        check_springs(&self.codes.named())?;
         let Some(power) = self.convention.law.power() else {
             return selected_codes(&self.codes.named());
         };

@@ -1,7 +1,7 @@
 //! `tristack probe`.
 
 use super::findings::exchange_all;
-use super::options::{CodeOptions, Format, RunOptions, selected_codes};
+use super::options::{CodeOptions, Format, RunOptions, check_springs, selected_codes};
 use super::out::{Out, write};
 use super::progress::Reporter;
 use super::{CliError, ExitStatus, INTERRUPT, complain, tell};
@@ -47,7 +47,9 @@ pub(super) struct Arguments {
 
 /// Probes the codes and prints the findings.
 pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, CliError> {
-    let codes = selected_codes(&arguments.codes.named())?;
+    let named = arguments.codes.named();
+    check_springs(&named)?;
+    let codes = selected_codes(&named)?;
     let out = Out::claim(arguments.out.as_deref(), &layout())?;
     if let Some(directory) = &arguments.passports {
         std::fs::create_dir_all(directory).map_err(FileError::writing(directory))?;

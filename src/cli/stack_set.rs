@@ -97,7 +97,8 @@ impl StackSet {
         codes: &[SettledCode],
         power: Power,
     ) -> Result<Vec<Measurement>, InvalidValue> {
-        match self.own_stacks(power)? {
+        let are_rigid = codes.iter().all(|code| code.name().is_rigid());
+        match self.own_stacks(power, are_rigid)? {
             Some(own) => self.measurements_of(&own, codes, power),
             None => {
                 let stacks = self.profile()?.stacks(power, self.others.bodies);
@@ -136,9 +137,15 @@ impl StackSet {
         Ok(self.profile()?.measurements_of(stacks, codes, power))
     }
 
-    /// Returns the stacks that are asked for in place of those of a profile.
-    fn own_stacks(&self, power: Power) -> Result<Option<Vec<Stack>>, InvalidValue> {
-        let (None, Some(frictions), Some(stiffnesses)) = (self.profile, &self.mu, &self.stiffness)
+    /// Returns the stacks that are asked for in place of those of a profile. Those of codes that `are_rigid` need no stiffness.
+    fn own_stacks(
+        &self,
+        power: Power,
+        are_rigid: bool,
+    ) -> Result<Option<Vec<Stack>>, InvalidValue> {
+        let any = Values(vec![Stiffness(1.0)]);
+        let stiffnesses = self.stiffness.as_ref().or(are_rigid.then_some(&any));
+        let (None, Some(frictions), Some(stiffnesses)) = (self.profile, &self.mu, stiffnesses)
         else {
             return Ok(None);
         };
@@ -162,7 +169,9 @@ impl StackSet {
     /// Returns those `rows` of the profile that --mu and --stiffness choose. Each value must choose at least one.
     fn chosen(&self, mut rows: Vec<Measurement>) -> Result<Vec<Measurement>, InvalidValue> {
         if let Some(Values(asked)) = &self.stiffness {
-            let is = |row: &Measurement, stiffness: &Stiffness| row.stack.stiffness == stiffness.0;
+            let is = |row: &Measurement, stiffness: &Stiffness| {
+                row.stack.stiffness == stiffness.0 || row.code.name().is_rigid()
+            };
             let shown = |stiffness: &Stiffness| stiffness.0.to_string();
             let of_row = |row: &Measurement| row.stack.stiffness.to_string();
             rows = filtered(rows, "--stiffness", asked, is, shown, of_row)?;

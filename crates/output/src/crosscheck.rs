@@ -27,7 +27,7 @@ pub fn crosscheck(judgements: &[Judgement]) -> DataTable<'_> {
     .shown("source")
     .dispensable(1)
     .convention(|row| Some(row.known_convention()))
-    .law(|row| row.study.convention.law)
+    .law(|row| row.known_law())
     .number("yield_force", "m g", |row| row.yield_force())
     .means(
         "yield force F at vanishing wall speed: the slip onset, or the peak where the force rises \
@@ -322,14 +322,22 @@ fn codes(judgements: &[Judgement]) -> DataTable<'_> {
         .source(|row| row.source)
         .shown("source")
         .right("pair arm", |row| {
-            shown_arms(row.known_convention().arms.pair)
+            arms_or_dash(row, row.known_convention().arms.pair)
         })
         .right("floor arm", |row| {
-            shown_arms(row.known_convention().arms.floor)
+            arms_or_dash(row, row.known_convention().arms.floor)
         })
         .left("evidence", |row| Evidence::of(row).as_str().to_owned())
         .dispensable(1)
         .rows(rows)
+}
+
+/// Formats the arms of one kind of contact; those of rigid bodies are no question.
+fn arms_or_dash(row: &Judgement, arms: ContactArms<Option<f64>>) -> String {
+    match row.code.is_rigid() {
+        true => "-".to_owned(),
+        false => shown_arms(arms),
+    }
 }
 
 /// Formats the arms of one kind of contact, as far as they are known.

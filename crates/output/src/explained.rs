@@ -68,7 +68,7 @@ pub(super) fn explained_runs(judgements: &[Judgement]) -> DataTable<'_> {
     .number("ramp_time", "√(m/k_n)", |(_, (case, _))| {
         match case.protocol.preparation {
             Preparation::GravityRamp { ramp_time, .. } => Some(ramp_time),
-            Preparation::SideWalls(_) => None,
+            Preparation::SideWalls(_) | Preparation::Rigid => None,
         }
     })
     .means("duration of the gravity ramp; absent between side walls")

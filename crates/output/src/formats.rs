@@ -50,7 +50,8 @@ upwards, angles turn counter-clockwise.
 const TASKS: &str = "
 # Parameters of tasks
 
-What a code is given for a task. Cylinder 1 is the top one, 2 the right one, 3 the left one.
+What a code is given for a task. Cylinder 1 is the top one, 2 the right one, 3 the left one. `rigid` is the task `stack` of a code
+whose manifest has `contact = \"rigid\"`; the unit of force is m g there (k_n = m g/r in units and results), so that `gravity` is 1.
 
 `schema` is raised when a parameter goes or changes its meaning, and then alone: further parameters and further numbers of
 an entry may join, lists may get longer and tasks may name further features. So a code passes over names that it does

@@ -23,7 +23,7 @@ pub fn impacts(judgements: &[ImpactJudgement]) -> DataTable<'_> {
     .version(|row| &row.version)
     .source(|row| row.source)
     .convention(|row| Some(row.study.impact.convention.into()))
-    .law(|row| row.study.impact.convention.law)
+    .law(|row| Some(row.study.impact.convention.law))
     .number("kappa", "1", |row| row.study.impact.stiffness_ratio)
     .means("stiffness ratio κ = k_n/k_t of pairs")
     .number("moment_of_inertia", "m r²", |row| {

@@ -59,7 +59,7 @@ fn styles(judgements: &[Judgement]) -> Vec<&Judgement> {
 
 /// Returns the table of contact conventions, one row per style.
 pub fn law_conventions(judgements: &[Judgement]) -> DataTable<'_> {
-    let law = |row: &&Judgement| row.study.convention.law;
+    let law = |row: &&Judgement| row.known_law();
     Columns::<&Judgement>::new(
         "laws",
         "A row is what one style of a code means by a contact.",
@@ -76,10 +76,12 @@ pub fn law_conventions(judgements: &[Judgement]) -> DataTable<'_> {
     .shown_as("floor $K$ / pair $K$", digits::<4>)
     .again("tangential_stiffening")
     .shown("$k_t$ times 2/(2 − overlap)")
-    .cell(move |row| match law(row).tangential_stiffening {
-        TangentialStiffening::None => "-".to_owned(),
-        contacts => contacts.as_str().to_owned(),
-    })
+    .cell(
+        move |row| match law(row).map(|law| law.tangential_stiffening) {
+            None | Some(TangentialStiffening::None) => "-".to_owned(),
+            Some(contacts) => contacts.as_str().to_owned(),
+        },
+    )
     .convention(|row| Some(row.known_convention()))
     .right("pair arm", |row| {
         shown_arms(row.known_convention().arms.pair)

@@ -123,7 +123,7 @@ fn convention<'a>(columns: Columns<'a, Row<'a>>) -> Columns<'a, Row<'a>> {
             own(row).moment_of_inertia
         })
         .means("moment of inertia of a cylinder")
-        .law(move |row| own(row).law)
+        .law(move |row| Some(own(row).law))
 }
 
 /// Adds the columns of preparation, compression and sampling.
@@ -133,19 +133,20 @@ fn protocol<'a>(columns: Columns<'a, Row<'a>>) -> Columns<'a, Row<'a>> {
     let sampling = move |row: &Row| own(row).sampling;
     columns
         .text("preparation", move |row| own(row).preparation.as_str())
-        .means("how the stack is brought to rest: `gravity-ramp` or `side-walls`")
+        .means("how the stack is brought to rest: `gravity-ramp`, `side-walls` or `rigid`")
         .number("ramp_time", time, move |row| match own(row).preparation {
             Preparation::GravityRamp { ramp_time, .. } => Some(ramp_time),
-            Preparation::SideWalls(_) => None,
+            Preparation::SideWalls(_) | Preparation::Rigid => None,
         })
         .means("duration of the gravity ramp")
         .number("rest_time", time, move |row| match own(row).preparation {
             Preparation::GravityRamp { rest_time, .. } => rest_time,
             Preparation::SideWalls(walls) => walls.rest_time,
+            Preparation::Rigid => 0.0,
         })
         .means("duration of the rest before the compression")
         .number("push", "r", move |row| match own(row).preparation {
-            Preparation::GravityRamp { .. } => None,
+            Preparation::GravityRamp { .. } | Preparation::Rigid => None,
             Preparation::SideWalls(walls) => Some(walls.push),
         })
         .means("A, how far each side wall is pushed in")

@@ -70,7 +70,7 @@ pub fn theory(predictions: &[Predictions]) -> DataTable<'_> {
     })
     .means("F at which the floor slips if other events are ignored; the closing of contact 2–3 is not")
     .convention(|own| Some((*own.problem.convention()).into()))
-    .law(|own| own.problem.convention().law)
+    .law(|own| Some(own.problem.convention().law))
     .number("T", "1", |own| own.quasistatic.tangent)
     .means("T = tan(ψ/2) where the floor slips")
     .number("y", "r", |own| own.quasistatic.y)

@@ -52,6 +52,17 @@ pub(in crate::cli) fn check_compress(codes: &[Code], bodies: u8) -> Result<(), M
     codes.try_for_each(|code| code.check_compresses(bodies))
 }
 
+/// Refuses codes whose bodies are rigid.
+pub(in crate::cli) fn check_springs(codes: &[Code]) -> Result<(), ManifestError> {
+    codes.iter().try_for_each(Code::check_has_springs)
+}
+
+/// Refuses codes that give no yield forces of stacks of this many `bodies`, before any of them is started.
+pub(in crate::cli) fn check_yields(codes: &[Code], bodies: u8) -> Result<(), ManifestError> {
+    let mut codes = codes.iter();
+    codes.try_for_each(|code| code.check_yields(bodies))
+}
+
 /// Returns the named codes, each of which must be installed, or every code with the paper's law if none is named.
 pub(in crate::cli) fn selected_codes(named: &[Code]) -> Result<Vec<SelectedCode>, CliError> {
     if named.is_empty() {

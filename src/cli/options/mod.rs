@@ -17,7 +17,10 @@ mod values;
 
 pub(super) use super::code_names::{CodeList, CodeListParser, CodeParser};
 pub(super) use amount::{moment, size};
-pub(super) use codes::{CodeOptions, check_compress, find_all, selected_codes, tell_stand_ins};
+pub(super) use codes::{
+    CodeOptions, check_compress, check_springs, check_yields, find_all, selected_codes,
+    tell_stand_ins,
+};
 pub(super) use convention::{ConventionOptions, history_update, power};
 pub(super) use flag::as_flag;
 pub(super) use format::Format;

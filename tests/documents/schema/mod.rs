@@ -133,9 +133,11 @@ fn tasks_fit_theirs_and_every_parameter_has_unit_and_meaning() {
     let tasks = |convention: ContactConvention| {
         let of_case = |case: Case| Case { convention, ..case }.all_parameters();
         let stiffness_ratio = Stack::usual_stiffness_ratio(convention.law.power);
-        let [mut whole, mut walls] = [case(), between_walls()];
+        let [mut whole, mut walls, mut rigid] = [case(), between_walls(), case()];
+        rigid.protocol.preparation = Preparation::Rigid;
         whole.stack.stiffness_ratio = stiffness_ratio;
         walls.stack.stiffness_ratio = stiffness_ratio;
+        rigid.stack.stiffness_ratio = stiffness_ratio;
         let mut pyramid = Pyramid::touching(3, 1e2, convention);
         pyramid.groups.stiffness_ratio = stiffness_ratio;
         let mut test = witness_test(convention);
@@ -143,6 +145,7 @@ fn tasks_fit_theirs_and_every_parameter_has_unit_and_meaning() {
         [
             ("stack", of_case(whole)),
             ("side-walls", of_case(walls)),
+            ("rigid", of_case(rigid)),
             ("motion", test.all_parameters()),
             ("pyramid", pyramid.all_parameters()),
         ]

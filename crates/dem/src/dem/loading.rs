@@ -72,6 +72,7 @@ impl LoadingProgram {
         let next = match &self.schedule.preparation {
             PreparationSteps::GravityRamp { ramp, .. } => Some(step).filter(|step| step <= ramp),
             PreparationSteps::SideWalls(walls) => SideWallPhases::of(walls).event_from(step),
+            PreparationSteps::Rigid => None,
         };
         Some(next.unwrap_or(compression))
     }
@@ -107,6 +108,7 @@ impl LoadingProgram {
             PreparationSteps::SideWalls(walls) => {
                 SideWallPhases::of(walls).actions_at(step, self.gravity, act);
             }
+            PreparationSteps::Rigid => {}
         }
     }
 }

@@ -99,7 +99,7 @@ where
         scene.cylinder_friction = number.like(case.stack.cylinder_friction);
         scene.moment_of_inertia = number.like(case.convention.moment_of_inertia);
         match case.protocol.preparation {
-            Preparation::GravityRamp { .. } => {
+            Preparation::GravityRamp { .. } | Preparation::Rigid => {
                 for wall in SIDE_WALLS {
                     scene.wall_exists[wall] = false;
                 }

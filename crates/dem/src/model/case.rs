@@ -81,10 +81,14 @@ impl Case {
         self.stack.validate()?;
         self.convention.validate()?;
         self.protocol.validate()?;
-        if matches!(self.protocol.preparation, Preparation::SideWalls(_)) {
+        if !matches!(self.protocol.preparation, Preparation::GravityRamp { .. }) {
             self.stack.refuse_spheres()?;
         }
-        self.validate_stability()
+        match self.protocol.preparation {
+            // Without springs nothing oscillates.
+            Preparation::Rigid => Ok(()),
+            _ => self.validate_stability(),
+        }
     }
 
     /// Returns its stack under its convention, both checked.
@@ -178,6 +182,7 @@ impl std::fmt::Display for Case {
             Preparation::SideWalls(walls) => {
                 write!(formatter, ", side walls, A = {}", exact(walls.push))
             }
+            Preparation::Rigid => formatter.write_str(", rigid"),
         }
     }
 }

@@ -35,6 +35,9 @@ pub enum Preparation<N = f64> {
     /// The paper's protocol (supplement I.B): side walls pushed in by A, the top cylinder lowered, the walls
     /// withdrawn. A determines the final c and the final tangential forces.
     SideWalls(SideWalls<N>),
+    /// None: three just-touching rigid cylinders, which rest on each other; gravity is g from the first step on. Their
+    /// contacts have no springs, so that the stiffness of the stack is the unit of force alone.
+    Rigid,
 }
 
 /// A preparation counted in time steps, as every code runs it. Every count is a multiple of
@@ -50,6 +53,8 @@ pub enum PreparationSteps {
     },
     /// Steps of the preparation between side walls.
     SideWalls(SideWallSteps),
+    /// Rigid bodies need no preparation.
+    Rigid,
 }
 
 impl PreparationSteps {
@@ -58,6 +63,7 @@ impl PreparationSteps {
         match self {
             Self::GravityRamp { ramp, rest } => ramp + rest,
             Self::SideWalls(steps) => steps.total(),
+            Self::Rigid => 0,
         }
     }
 }
@@ -68,6 +74,7 @@ impl Preparation<f64> {
         match self {
             Self::GravityRamp { .. } => "gravity-ramp",
             Self::SideWalls(_) => "side-walls",
+            Self::Rigid => "rigid",
         }
     }
 
@@ -81,6 +88,7 @@ impl Preparation<f64> {
                 rest: rounded(rest_time),
             },
             Self::SideWalls(walls) => PreparationSteps::SideWalls(walls.steps(time_step, rounded)),
+            Self::Rigid => PreparationSteps::Rigid,
         }
     }
 
@@ -116,6 +124,7 @@ impl Preparation<f64> {
                 positive("protocol.preparation.rest_time", rest_time, longest)
             }
             Self::SideWalls(walls) => walls.validate(longest),
+            Self::Rigid => Ok(()),
         }
     }
 }
@@ -437,6 +446,7 @@ mod tests {
             };
             let schedule = protocol.schedule();
             let preparation = match schedule.preparation {
+                PreparationSteps::Rigid => Vec::new(),
                 PreparationSteps::GravityRamp { ramp, rest } => vec![ramp, rest],
                 PreparationSteps::SideWalls(steps) => vec![
                     steps.push_steps,

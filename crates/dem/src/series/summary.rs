@@ -1,7 +1,7 @@
 //! What is kept of a run whose series is not kept.
 
-use super::{Mechanics, Series, YieldEstimates};
-use crate::model::Case;
+use super::{Mechanics, RigidReading, Series, YieldEstimates};
+use crate::model::{Case, Preparation};
 
 /// The yield force of a run by both estimators, with further data for a verdict.
 #[derive(Debug, Clone, PartialEq)]
@@ -14,8 +14,10 @@ pub struct Summary {
     pub contact_force: Option<f64>,
     /// x₂, y₁ and y₂ at the start of the compression, in r.
     pub start: Option<[f64; 3]>,
-    /// The largest deviation from each law of mechanics.
+    /// The largest deviation from each law of mechanics; empty where bodies are rigid.
     pub mechanics: Mechanics,
+    /// What the series of a rigid stack shows.
+    pub rigid: Option<RigidReading>,
 }
 
 impl Summary {
@@ -37,7 +39,11 @@ impl Summary {
                     [contact.outwards, sample.top(stack)[1], contact.height]
                 })
                 .filter(|start| !start.iter().any(|place| place.is_nan())),
-            mechanics: Mechanics::read(series, case),
+            mechanics: match case.protocol.preparation {
+                Preparation::Rigid => Mechanics::default(),
+                _ => Mechanics::read(series, case),
+            },
+            rigid: RigidReading::read(series, case),
         }
     }
 }

@@ -2,10 +2,10 @@
 
 use super::definition::{DECK, DIRECTORIES};
 use super::format::ResultFormat;
-use super::manifest::{Definition, TaskKind};
+use super::manifest::{Contact, Definition, TaskKind};
 use super::manifest_error::refused;
 use super::search_path::check_directory;
-use crate::model::{InvalidValue, readable};
+use crate::model::{ContactConvention, InvalidValue, readable};
 use std::path::{Component, Path};
 
 impl Definition {
@@ -18,9 +18,27 @@ impl Definition {
         }
         self.check_texts()?;
         self.convention.validate()?;
+        self.check_rigid()?;
         self.check_files()?;
         self.check_columns()?;
         self.check_command()
+    }
+
+    /// Refuses other tasks than `stack`, and a convention, where bodies are rigid.
+    fn check_rigid(&self) -> Result<(), InvalidValue> {
+        if self.contact != Contact::Rigid {
+            return Ok(());
+        }
+        let mut others = self.tasks.keys().filter(|kind| **kind != TaskKind::Stack);
+        if let Some(kind) = others.next() {
+            let accepted = "[tasks.stack] alone where `contact` is \"rigid\"";
+            return Err(refused("tasks", kind.as_str(), accepted));
+        }
+        if self.convention != ContactConvention::default() {
+            let accepted = "nothing where `contact` is \"rigid\": rigid bodies have no springs, arms or damping";
+            return Err(refused("convention", "given", accepted));
+        }
+        Ok(())
     }
 
     /// Refuses texts that tables cannot show as they are.

@@ -186,6 +186,23 @@ pub struct KnownConvention {
     pub history_update: Option<HistoryUpdate>,
 }
 
+impl KnownConvention {
+    /// That of rigid bodies, which have none.
+    pub const NONE: Self = Self {
+        arms: Arms {
+            pair: ContactArms {
+                torque: None,
+                kinematic: None,
+            },
+            floor: ContactArms {
+                torque: None,
+                kinematic: None,
+            },
+        },
+        history_update: None,
+    };
+}
+
 impl From<ContactConvention> for KnownConvention {
     fn from(convention: ContactConvention) -> Self {
         Self {

@@ -4,7 +4,7 @@
 use super::convention::ConventionKey;
 use super::folder::Folder;
 use super::layers::Layers;
-use super::manifest::{Definition, ResultFile, TaskKind};
+use super::manifest::{Contact, Definition, ResultFile, TaskKind};
 use super::manifest_error::{ManifestError, refused};
 use super::search_path::FOLDER;
 use crate::model::{InvalidValue, PAPER_BODIES, Preparation, Stack, sha256_hex};
@@ -28,6 +28,7 @@ impl TaskKind {
             _ if stack.bodies != PAPER_BODIES => Self::Spheres,
             Preparation::GravityRamp { .. } => Self::Stack,
             Preparation::SideWalls(_) => Self::SideWalls,
+            Preparation::Rigid => Self::Rigid,
         }
     }
 }
@@ -51,7 +52,10 @@ impl Definition {
     fn of_code(code: DeTable, family: &str, layers: &Layers) -> Result<Self, ManifestError> {
         let mut definition: Self = layers.read_as(code.clone())?;
         definition.place = layers.place_of(&code, "name");
-        definition.left_out = ConventionKey::left_out_of(&code);
+        definition.left_out = match definition.contact {
+            Contact::Elastic => ConventionKey::left_out_of(&code),
+            Contact::Rigid => Vec::new(),
+        };
         let finished = definition.finish(family, layers);
         finished.map_err(|invalid| layers.invalid(&code, &invalid))?;
         Ok(definition)
@@ -63,6 +67,11 @@ impl Definition {
             self.tasks.remove(kind);
         }
         self.check()?;
+        if self.contact == Contact::Rigid
+            && let Some(stack) = self.tasks.remove(&TaskKind::Stack)
+        {
+            self.tasks.insert(TaskKind::Rigid, stack);
+        }
         family.clone_into(&mut self.family);
         if self.title.is_empty() {
             self.title.clone_from(&self.family);
@@ -105,7 +114,15 @@ impl Definition {
 
     /// Whether it runs tasks of this kind.
     pub(super) fn runs(&self, kind: TaskKind) -> bool {
-        self.program.is_none() || self.tasks.contains_key(&kind)
+        match kind {
+            TaskKind::Rigid => self.tasks.contains_key(&kind),
+            _ => self.program.is_none() || self.tasks.contains_key(&kind),
+        }
+    }
+
+    /// Whether its bodies are rigid.
+    pub(super) fn is_rigid(&self) -> bool {
+        self.contact == Contact::Rigid
     }
 
     /// Whether one process carries out many tasks.

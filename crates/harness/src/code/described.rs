@@ -241,6 +241,11 @@ impl Code {
         }
     }
 
+    /// Whether its bodies are rigid, so that its contacts have no convention and no stiffness.
+    pub fn is_rigid(&self) -> bool {
+        self.definition().is_rigid()
+    }
+
     /// Whether its folder is part of this program.
     pub(crate) fn is_built_in(&self) -> bool {
         self.0.folder.is_none()
@@ -324,6 +329,11 @@ impl Code {
         if self.definition().runs(kind) {
             return Ok(());
         }
+        if self.is_rigid() {
+            let accepted =
+                format!("a code whose contacts have springs; the bodies of {self} are rigid");
+            return Err(refused("code", self, accepted));
+        }
         if kind == TaskKind::SideWalls {
             let accepted = format!("gravity-ramp for {self}");
             return Err(refused("protocol.preparation.kind", "side-walls", accepted));
@@ -336,6 +346,11 @@ impl Code {
             TaskKind::Pyramid => "a pyramid",
             TaskKind::Spheres => "a stack of spheres",
             TaskKind::SpheresMotion => "a micro-test of spheres",
+            TaskKind::Rigid => {
+                let accepted =
+                    format!("a code whose manifest has contact = \"rigid\"; {self} has springs");
+                return Err(refused("code", self, accepted));
+            }
             _ => "a micro-test",
         };
         let accepted = format!("one of {} for {task}", able.join(", "));
@@ -356,13 +371,42 @@ impl Code {
         if definition.runs(kind) {
             return Ok(());
         }
+        self.check_has_springs()?;
+        let path = definition.place.path.clone();
         let message = format!(
             "`tasks.{}` is absent, so that {self} compresses no {stack}; accepted here is a table with the `files` of that \
              task (docs/your-own-code.md). `tristack probe`, `passport`, `impacts` and `check` need `tasks.motion` alone",
             kind.as_str()
         );
-        let path = definition.place.path.clone();
         Err(ManifestError::new(Place { path, line: None }, &message))
+    }
+
+    /// Refuses a code whose bodies are rigid. For commands that need springs.
+    ///
+    /// # Errors
+    /// Names the manifest and its key.
+    pub fn check_has_springs(&self) -> Result<(), ManifestError> {
+        if !self.is_rigid() {
+            return Ok(());
+        }
+        let path = self.definition().place.path.clone();
+        let message = format!(
+            "`contact` is \"rigid\"; accepted here is a code whose contacts have springs. `tristack check` and `crosscheck` \
+             judge {self}"
+        );
+        Err(ManifestError::new(Place { path, line: None }, &message))
+    }
+
+    /// Refuses a code whose yield forces of stacks of this many `bodies` nothing can be compared with: neither rigid nor with a
+    /// task for them.
+    ///
+    /// # Errors
+    /// Names the manifest and the table that it lacks.
+    pub fn check_yields(&self, bodies: u8) -> Result<(), ManifestError> {
+        match self.definition().runs(TaskKind::Rigid) && bodies == PAPER_BODIES {
+            true => Ok(()),
+            false => self.check_compresses(bodies),
+        }
     }
 
     /// Whether it can shorten runs.

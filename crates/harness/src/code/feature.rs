@@ -22,8 +22,8 @@ impl Feature {
     pub fn meaning(self) -> &'static str {
         match self {
             Self::Friction => {
-                "a tangential spring and dashpot, their force at most `cylinder_friction` times the normal force between \
-                 bodies and `floor_friction` times that at the floor; on where either is above 0"
+                "a tangential spring and dashpot, or neither between rigid bodies; their force at most `cylinder_friction` times \
+                 the normal force between bodies and `floor_friction` times that at the floor; on where either is above 0"
             }
         }
     }

@@ -78,14 +78,23 @@ impl When {
     }
 }
 
-use TaskKind::{Motion, Pyramid as Pile, SideWalls, Spheres, SpheresMotion, Stack};
+use TaskKind::{Motion, Pyramid as Pile, Rigid, SideWalls, Spheres, SpheresMotion, Stack};
 
-const EVERY: &[TaskKind] = &[Stack, SideWalls, Motion, Pile, Spheres, SpheresMotion];
-const FEW_BODIES: &[TaskKind] = &[Stack, SideWalls, Motion, Spheres, SpheresMotion];
-const COMPRESSION: &[TaskKind] = &[Stack, SideWalls, Spheres];
+const EVERY: &[TaskKind] = &[
+    Stack,
+    SideWalls,
+    Motion,
+    Pile,
+    Spheres,
+    SpheresMotion,
+    Rigid,
+];
+const SPRINGS: &[TaskKind] = &[Stack, SideWalls, Motion, Pile, Spheres, SpheresMotion];
+const FEW_BODIES: &[TaskKind] = &[Stack, SideWalls, Motion, Spheres, SpheresMotion, Rigid];
+const COMPRESSION: &[TaskKind] = &[Stack, SideWalls, Spheres, Rigid];
 const AT_REST: &[TaskKind] = &[Stack, SideWalls, Pile, Spheres];
 const RAMP: &[TaskKind] = &[Stack, Pile, Spheres];
-const WALL: &[TaskKind] = &[Stack, SideWalls, Motion, Spheres, SpheresMotion];
+const WALL: &[TaskKind] = &[Stack, SideWalls, Motion, Spheres, SpheresMotion, Rigid];
 const WALLS: &[TaskKind] = &[SideWalls];
 const TESTS: &[TaskKind] = &[Motion, SpheresMotion];
 const TEST: &[TaskKind] = &[Motion];
@@ -117,18 +126,18 @@ parameters! {
     "radius", "r", EVERY, "radius of every body, cylinder or sphere, where all are equal: 1, the unit of length";
     "mass", "m", EVERY, "mass of every body, where all are equal: 1, the unit of mass";
     "moment_of_inertia", "m r²", EVERY, "moment of inertia of every body, where all are equal: of a cylinder about its axis; of a sphere 0.4";
-    "normal_stiffness", "k_n", EVERY, "stiffness of every contact along its normal, those of the walls included: 1";
-    "tangential_stiffness", "k_n", EVERY, "stiffness of the tangential spring of every contact with friction";
-    "normal_power", "1", EVERY where NotLinear, "exponent p of the normal force: normal_stiffness overlap^p; tangential_stiffness and damping are those at an overlap of r, and grow with its powers p - 1 and, in the convention of most codes, (p - 1)/2";
-    "floor_normal_stiffness", "k_n", EVERY where NotLinear, "normal_stiffness of the floor and of other walls";
-    "floor_tangential_stiffness", "k_n", EVERY where NotLinear, "tangential_stiffness of the floor";
-    "floor_damping_normal", DAMPING, EVERY where NotLinear, "damping_normal of the floor and of other walls";
-    "floor_damping_tangential", DAMPING, EVERY where NotLinear, "damping_tangential of the floor";
+    "normal_stiffness", "k_n", SPRINGS, "stiffness of every contact along its normal, those of the walls included: 1";
+    "tangential_stiffness", "k_n", SPRINGS, "stiffness of the tangential spring of every contact with friction";
+    "normal_power", "1", SPRINGS where NotLinear, "exponent p of the normal force: normal_stiffness overlap^p; tangential_stiffness and damping are those at an overlap of r, and grow with its powers p - 1 and, in the convention of most codes, (p - 1)/2";
+    "floor_normal_stiffness", "k_n", SPRINGS where NotLinear, "normal_stiffness of the floor and of other walls";
+    "floor_tangential_stiffness", "k_n", SPRINGS where NotLinear, "tangential_stiffness of the floor";
+    "floor_damping_normal", DAMPING, SPRINGS where NotLinear, "damping_normal of the floor and of other walls";
+    "floor_damping_tangential", DAMPING, SPRINGS where NotLinear, "damping_tangential of the floor";
     "youngs_modulus", "k_n/r", EVERY where Material, "Young's modulus of equal spheres for which Hertz's force between two of them is normal_stiffness overlap^1.5";
     "poisson_ratio", "1", EVERY where Material, "their Poisson's ratio, with which Mindlin's stiffness between two of them is tangential_stiffness overlap^0.5";
-    "restitution", "1", EVERY, "restitution of one body at a wall by the damping of both springs; that of two bodies is smaller, since these have half the mass and the same damping";
-    "damping_normal", DAMPING, EVERY, "force of the dashpot beside the normal spring, over the speed of approach";
-    "damping_tangential", DAMPING, EVERY, "force of the dashpot beside the tangential spring, over the speed of sliding";
+    "restitution", "1", SPRINGS, "restitution of one body at a wall by the damping of both springs; that of two bodies is smaller, since these have half the mass and the same damping";
+    "damping_normal", DAMPING, SPRINGS, "force of the dashpot beside the normal spring, over the speed of approach";
+    "damping_tangential", DAMPING, SPRINGS, "force of the dashpot beside the tangential spring, over the speed of sliding";
     "floor_friction", "1", EVERY, "friction coefficient of body and floor; the other walls have none";
     "cylinder_friction", "1", EVERY, "friction coefficient between bodies";
     "gravity", "k_n r/m", EVERY, "gravity, downwards, at its full value, which it has from the first step where it does not rise; 0 in a micro-test";
@@ -304,7 +313,7 @@ pub(super) fn of_case(case: &Case) -> Value {
         _ => "xyz",
     };
     let [mu, mu_d] = [case.stack.floor_friction, case.stack.cylinder_friction];
-    merged([
+    let given = merged([
         of_equal_bodies(&case.convention),
         each_body(&case.convention, centres.len()),
         features(mu, mu_d),
@@ -314,7 +323,23 @@ pub(super) fn of_case(case: &Case) -> Value {
             "preparation_steps": schedule.preparation.total(),
             "rows": schedule.rows(),
         }),
-    ])
+    ]);
+    match schedule.preparation {
+        PreparationSteps::Rigid => without_springs(given),
+        _ => given,
+    }
+}
+
+/// Leaves out of `given` what rigid bodies do not have.
+fn without_springs(mut given: Value) -> Value {
+    if let Some(given) = given.as_object_mut() {
+        let of_springs = |name: &str| {
+            let mut declared = PARAMETERS.iter().filter(|one| one.name == name);
+            declared.any(|one| !one.tasks.contains(&Rigid))
+        };
+        given.retain(|name, _| !of_springs(name));
+    }
+    given
 }
 
 /// The parameters of a micro-test.
@@ -417,6 +442,7 @@ mod tests {
             for (kind, given) in [
                 (Stack, of_case(&case_of(ramp()))),
                 (SideWalls, of_case(&case_of(walls))),
+                (Rigid, of_case(&case_of(Preparation::Rigid))),
                 (Motion, of_contact_test(&test)),
                 (Pile, of_pyramid(&pyramid)),
             ] {

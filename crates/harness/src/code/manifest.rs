@@ -56,6 +56,9 @@ pub struct Definition {
     /// Kinds of tasks that are not inherited from the code that is extended.
     #[serde(default)]
     pub(super) without: Vec<TaskKind>,
+    /// Whether contacts have springs.
+    #[serde(default)]
+    pub(super) contact: Contact,
     /// The contact convention of the code; a key that is left out is measured by the probe.
     #[serde(default)]
     pub(super) convention: ContactConvention,
@@ -83,6 +86,18 @@ pub struct Definition {
     pub(super) place: Place,
 }
 
+/// What the contacts of a code are.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub(super) enum Contact {
+    /// Springs and dashpots.
+    #[default]
+    Elastic,
+    /// Bodies are rigid, as in contact dynamics and in physics engines. The task `stack` has no stiffness then, and the code
+    /// has no other task and no convention.
+    Rigid,
+}
+
 /// The kinds of tasks.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
@@ -99,17 +114,21 @@ pub enum TaskKind {
     Spheres,
     /// Move two spheres in space for a few steps.
     SpheresMotion,
+    /// Compress a stack of rigid cylinders: the task `stack` of a code whose `contact` is rigid.
+    #[serde(skip)]
+    Rigid,
 }
 
 impl TaskKind {
     /// All kinds.
-    pub const ALL: [Self; 6] = [
+    pub const ALL: [Self; 7] = [
         Self::Stack,
         Self::SideWalls,
         Self::Motion,
         Self::Pyramid,
         Self::Spheres,
         Self::SpheresMotion,
+        Self::Rigid,
     ];
 
     /// Its name in manifests.
@@ -121,6 +140,7 @@ impl TaskKind {
             Self::Pyramid => "pyramid",
             Self::Spheres => "spheres",
             Self::SpheresMotion => "spheres-motion",
+            Self::Rigid => "rigid",
         }
     }
 }

@@ -127,6 +127,7 @@ fn of_preparation(preparation: &PreparationSteps, epsilon: f64) -> Value {
             "withdrawal_steps": steps.withdrawal_steps,
             "rest_steps": steps.rest_steps,
         }),
+        PreparationSteps::Rigid => json!({}),
     }
 }
 

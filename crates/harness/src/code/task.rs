@@ -75,7 +75,10 @@ impl Task for Case {
     }
 
     fn parameters(&self) -> serde_json::Value {
-        parameters::of_case(self)
+        match self.kind() {
+            TaskKind::Rigid => full_parameters::of_case(self),
+            _ => parameters::of_case(self),
+        }
     }
 
     fn all_parameters(&self) -> serde_json::Value {

@@ -4,7 +4,7 @@ use super::{Reading, Recorded, RecordedError, Store};
 use crate::code::{Code, Identity, InstalledCode, Provenance, Run};
 use crate::files::FileError;
 use crate::model::Case;
-use crate::series::{Mechanics, Summary, YieldEstimates};
+use crate::series::{Mechanics, RigidReading, Summary, YieldEstimates};
 use serde::{Deserialize, Serialize};
 
 /// The yield force of a run by both estimators, and its provenance: a hundredth of its series in size.
@@ -29,6 +29,9 @@ pub struct RunSummary {
     /// The largest deviation from each law of mechanics; absent from older recordings.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub mechanics: Option<Mechanics>,
+    /// What the series of a rigid stack shows.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub rigid: Option<RigidReading>,
     /// The columns that the code does not report.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub absent: Vec<String>,
@@ -44,6 +47,7 @@ impl RunSummary {
             mechanics: Some(read.mechanics),
             start: read.start,
             contact_force: read.contact_force,
+            rigid: read.rigid,
             absent: run
                 .series
                 .absent()

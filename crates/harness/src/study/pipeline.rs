@@ -251,7 +251,9 @@ impl<'a> Campaign<'a> {
     ) -> Option<Judged<S, S::Finding>> {
         let code = study.code().name().clone();
         let place = self.codes.iter().position(|own| own.name == code);
-        let probed = place.and_then(|place| self.probes().get(place));
+        // Rigid bodies have no convention that a probe could measure.
+        let place_of_probe = place.filter(|_| !code.is_rigid());
+        let probed = place_of_probe.and_then(|place| self.probes().get(place));
         let unprobed = probed.and_then(|probed| probed.as_ref().err());
         if errors(&results).any(RunError::is_interrupted)
             || unprobed.is_some_and(|error| error.is_interrupted())

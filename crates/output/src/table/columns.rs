@@ -245,8 +245,9 @@ impl<'a, R: 'a> Columns<'a, R> {
 
     /// Adds the parameters of a stack; people see stiffness and floor friction.
     pub(crate) fn stack(self, stack: impl Fn(&R) -> Stack + Copy + 'a) -> Self {
-        self.number("stiffness", "m g/r", move |row| stack(row).stiffness)
-            .means("normal stiffness k_n, 1/ε")
+        let stiffness = move |row: &R| Some(stack(row).stiffness).filter(|own| own.is_finite());
+        self.number("stiffness", "m g/r", stiffness)
+            .means("normal stiffness k_n, 1/ε; absent where bodies are rigid")
             .shown("stiffness")
             .number("mu", "1", move |row| stack(row).floor_friction)
             .means("floor friction μ")
@@ -255,8 +256,11 @@ impl<'a, R: 'a> Columns<'a, R> {
             .digits(friction)
             .number("mu_d", "1", move |row| stack(row).cylinder_friction)
             .means("friction μ_d between the bodies")
-            .number("kappa", "1", move |row| stack(row).stiffness_ratio)
-            .means("stiffness ratio κ = k_n/k_t")
+            .number("kappa", "1", move |row| {
+                let own = stack(row);
+                own.stiffness.is_finite().then_some(own.stiffness_ratio)
+            })
+            .means("stiffness ratio κ = k_n/k_t; absent where bodies are rigid")
             .number("bodies", "1", move |row| u64::from(stack(row).bodies))
             .means("number n of bodies on the floor: 2 cylinders, or 3 to 5 spheres in a ring")
     }
@@ -295,17 +299,18 @@ impl<'a, R: 'a> Columns<'a, R> {
         .means("treatment of the tangential spring of a turning contact")
     }
 
-    /// Adds the contact law.
-    pub(crate) fn law(self, law: impl Fn(&R) -> Law + Copy + 'a) -> Self {
-        self.number("law_power", "1", move |row| law(row).power.value())
-            .means("power p of the normal force K overlapᵖ: 1 where springs are linear, 1.5 in Hertz's law")
-            .text("history", move |row| law(row).history.as_str())
+    /// Adds the contact law; its columns are empty where there is none.
+    pub(crate) fn law(self, law: impl Fn(&R) -> Option<Law> + Copy + 'a) -> Self {
+        self.number("law_power", "1", move |row| Some(law(row)?.power.value()))
+            .means("power p of the normal force K overlapᵖ: 1 where springs are linear, 1.5 in Hertz's law; absent, like the rest of \
+                    the law, where bodies are rigid")
+            .text("history", move |row| Some(law(row)?.history.as_str()))
             .means("what tangential springs remember while their stiffness changes")
-            .number("floor_ratio", "1", move |row| law(row).floor_ratio)
+            .number("floor_ratio", "1", move |row| Some(law(row)?.floor_ratio))
             .means("K of the floor over K of cylinders")
-            .number("floor_kappa", "1", move |row| law(row).floor_kappa)
+            .number("floor_kappa", "1", move |row| law(row)?.floor_kappa)
             .means("stiffness ratio of the floor; absent where it is that of cylinders")
-            .text("tangential_stiffening", move |row| law(row).tangential_stiffening.as_str())
+            .text("tangential_stiffening", move |row| Some(law(row)?.tangential_stiffening.as_str()))
             .means("contacts whose k_t is multiplied by 2/(2 − overlap): none, those of pairs, or every one")
     }
 

@@ -16,6 +16,7 @@ mod micro;
 mod numbers;
 mod reaction;
 mod report;
+mod rigid;
 mod search;
 mod spheres;
 mod stack;
@@ -142,6 +143,9 @@ fn keep(place: &Scratch, report: &mut Report) -> io::Result<()> {
 
 /// Returns the command that judges `code`, whose folder a shell is given as `folder`.
 fn judged_by(code: &Code, folder: &str) -> String {
+    if code.is_rigid() {
+        return format!("tristack crosscheck --codes {folder}");
+    }
     let runs = |kind| code.check_task(kind).is_ok();
     let power = match code.law().power {
         Power::Linear => Some(""),
@@ -171,6 +175,9 @@ impl Check<'_> {
     fn go_through(&mut self) -> Option<()> {
         self.manifest();
         let installed = self.program()?;
+        if self.code.is_rigid() {
+            return self.rigid(installed.as_ref());
+        }
         let declared = self.code.declaration().convention;
         let case = case(declared);
         let run = match self.code.check_task(TaskKind::Stack) {
@@ -216,6 +223,7 @@ impl Check<'_> {
 
     fn manifest(&mut self) {
         let kinds = [
+            TaskKind::Rigid,
             TaskKind::Stack,
             TaskKind::Motion,
             TaskKind::Spheres,

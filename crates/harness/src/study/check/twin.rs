@@ -119,7 +119,7 @@ fn contact(law: &ContactLaw, friction: f64) -> OfContact {
 fn preparation_steps(schedule: &Schedule) -> [f64; 2] {
     match schedule.preparation {
         PreparationSteps::GravityRamp { ramp, rest } => [ramp as f64, rest as f64],
-        PreparationSteps::SideWalls(_) => [0.0; 2],
+        PreparationSteps::SideWalls(_) | PreparationSteps::Rigid => [0.0; 2],
     }
 }
 

@@ -62,29 +62,30 @@ impl Study for Measurement {
     fn evaluate(&self, runs: Vec<Vec<RunSummary>>) -> Evaluation<YieldForce> {
         let runs = runs.into_iter().flatten().collect();
         let mut reader = Reader::new(self, runs);
+        if self.method == Method::Rigid && !self.cases.is_empty() {
+            reader.judge_rigid();
+            return reader.evaluated();
+        }
         reader.hold_to_mechanics();
         match self.limit.yield_force.filter(|_| !self.cases.is_empty()) {
             None => reader
                 .grounds
                 .add(Ground::NoYield(self.limit.reason.clone())),
             Some(reference) => match self.method {
-                Method::Extrapolated | Method::AtOneSpeed => reader.extrapolate(reference),
                 Method::Literal => reader.take_literally(reference),
+                _ => reader.extrapolate(reference),
             },
         }
-        Evaluation {
-            finding: reader.finding,
-            grounds: reader.grounds,
-        }
+        reader.evaluated()
     }
 }
 
 /// Reads the yield force of one measurement and collects the grounds for its verdict.
-struct Reader<'a> {
-    measurement: &'a Measurement,
+pub(super) struct Reader<'a> {
+    pub(super) measurement: &'a Measurement,
     estimates: Vec<YieldEstimates>,
-    finding: YieldForce,
-    grounds: Grounds,
+    pub(super) finding: YieldForce,
+    pub(super) grounds: Grounds,
 }
 
 impl<'a> Reader<'a> {
@@ -100,6 +101,13 @@ impl<'a> Reader<'a> {
                 force: None,
             },
             grounds: Grounds::new(),
+        }
+    }
+
+    fn evaluated(self) -> Evaluation<YieldForce> {
+        Evaluation {
+            finding: self.finding,
+            grounds: self.grounds,
         }
     }
 
@@ -215,7 +223,7 @@ impl<'a> Reader<'a> {
     }
 
     /// Sets the yield force and compares it with the limit.
-    fn compare(&mut self, force: f64, uncertainty: f64, reference: f64) {
+    pub(super) fn compare(&mut self, force: f64, uncertainty: f64, reference: f64) {
         self.finding.force = Some((force, uncertainty));
         let load = self.measurement.stack.floor_load(reference);
         let relative = uncertainty / load;
@@ -241,7 +249,7 @@ impl<'a> Reader<'a> {
         self.grounds.compare(error, relative, allowed, note);
     }
 
-    fn doubt(&mut self, note: String) {
+    pub(super) fn doubt(&mut self, note: String) {
         self.grounds.add(Ground::Doubt(note));
     }
 
@@ -613,7 +621,7 @@ const ROUGH_TOUCH: &str = "the wall touches the stack so fast that the floor sli
 
 /// Safety factor of the grid convergence index where two runs do not show the order of convergence (ASME
 /// V&V 20, section 2-4.1; P. J. Roache, J. Fluids Eng. 116, 405 (1994)).
-const TWO_GRIDS: f64 = 3.0;
+pub(super) const TWO_GRIDS: f64 = 3.0;
 
 /// Relative error of a step of the wall from rounding, which is much the same in every step: the heights of cylinder
 /// 1 and of the wall are coordinates from 2 to 4.

@@ -149,6 +149,7 @@ impl Measurement {
                     estimator,
                 )
             }
+            Method::Rigid => None,
             Method::Extrapolated | Method::Literal => {
                 let read = |run: &YieldEstimates| estimator.read(run);
                 extrapolate_runs(&self.roles, estimates, &steps, stiffness, read)
@@ -213,7 +214,7 @@ pub(crate) fn planned(
     let protocols = match method {
         Method::Extrapolated => planned_protocols(&limit, stack, &convention, code.settled()),
         Method::Literal => literal_protocols(&limit),
-        Method::AtOneSpeed => None,
+        Method::AtOneSpeed | Method::Rigid => None,
     };
     let protocols = protocols.into_iter().flatten();
     let cases = protocols.map(|protocol| Case {

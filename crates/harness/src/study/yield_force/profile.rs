@@ -1,6 +1,8 @@
 //! Profiles: the stacks that a crosscheck covers, and how each is measured.
 
 use super::plan::{Measurement, plan, plan_literal};
+use super::rigid::plan_rigid;
+use super::runs::Method;
 use crate::code::{Code, SettledCode};
 use crate::model::{CRITICAL_FRICTION, PAPER_BODIES, Power, Stack};
 
@@ -124,6 +126,9 @@ impl Profile {
 
     /// The measurement of `stack` by `code` with the method of the profile, under a law of this power.
     pub fn measurement(self, code: &SettledCode, stack: &Stack, power: Power) -> Measurement {
+        if code.name().is_rigid() {
+            return plan_rigid(code, stack);
+        }
         let convention = code.stack_convention(power, stack.bodies);
         match self {
             Self::Quick | Self::Standard => plan(code, stack, convention),
@@ -138,9 +143,19 @@ impl Profile {
         codes: &[SettledCode],
         power: Power,
     ) -> Vec<Measurement> {
-        let mut measurements = Vec::new();
+        let mut measurements: Vec<Measurement> = Vec::new();
         for &stack in stacks {
             for code in codes {
+                // Rigid stacks of any stiffness are the same.
+                let is_known = |own: &Measurement| {
+                    let frictions = |of: &Stack| [of.floor_friction, of.cylinder_friction];
+                    own.method == Method::Rigid
+                        && own.code.name() == code.name()
+                        && frictions(&own.stack) == frictions(&stack)
+                };
+                if code.name().is_rigid() && measurements.iter().any(is_known) {
+                    continue;
+                }
                 if self != Self::Paper || is_run_literally(code.name(), &stack) {
                     measurements.push(self.measurement(code, &stack, power));
                 }
@@ -157,7 +172,6 @@ fn is_run_literally(code: &Code, stack: &Stack) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::study::yield_force::Method;
 
     #[test]
     fn every_stack_of_the_figure_yields_for_every_code_and_every_case_is_valid() {

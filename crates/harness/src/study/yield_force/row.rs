@@ -2,7 +2,9 @@
 
 use super::extrapolate::Extrapolation;
 use super::judgement::Judgement;
+use super::runs::Method;
 use crate::code::KnownConvention;
+use crate::model::Law;
 use crate::runs::RunSummary;
 use crate::study::Verdict;
 use crate::theory::Limit;
@@ -13,7 +15,7 @@ impl Judgement {
         self.study.stack.floor_friction
     }
 
-    /// Stiffness 1/ε.
+    /// Stiffness 1/ε; infinite where bodies are rigid.
     pub fn stiffness(&self) -> f64 {
         self.study.stack.stiffness
     }
@@ -28,7 +30,15 @@ impl Judgement {
     /// What is known of the convention under which the limit was computed.
     pub fn known_convention(&self) -> KnownConvention {
         let settled = self.study.code.settled();
-        settled.known(&self.study.convention)
+        match self.study.method {
+            Method::Rigid => KnownConvention::NONE,
+            _ => settled.known(&self.study.convention),
+        }
+    }
+
+    /// The contact law; `None` where bodies are rigid.
+    pub fn known_law(&self) -> Option<Law> {
+        (self.study.method != Method::Rigid).then_some(self.study.convention.law)
     }
 
     /// Distance of the limit under the convention of the code from the one under the paper's, relative to F + 3.

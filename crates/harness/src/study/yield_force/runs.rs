@@ -25,6 +25,8 @@ pub enum Method {
     /// As in the paper: the peak at the wall speed and time step of the paper, less what theory expects the speed to add.
     /// A run twice as fast shows what is left.
     Literal,
+    /// The force with which rigid bodies give way, at vanishing wall travel.
+    Rigid,
     /// Slip onset at one wall speed, less what theory expects the speed to add; never planned.
     #[serde(skip)]
     AtOneSpeed,
@@ -35,7 +37,7 @@ impl Method {
     pub(crate) fn compared_run(self) -> usize {
         match self {
             Self::Extrapolated => MIDDLE_RUN,
-            Self::Literal | Self::AtOneSpeed => 0,
+            Self::Literal | Self::AtOneSpeed | Self::Rigid => 0,
         }
     }
 }

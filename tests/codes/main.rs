@@ -12,6 +12,7 @@ mod live;
 mod mutations;
 mod probe_laws;
 mod resolution;
+mod rigid;
 mod schemes;
 mod twins;
 mod variants;

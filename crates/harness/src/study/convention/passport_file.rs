@@ -9,6 +9,10 @@ use thiserror::Error;
 
 /// Digits of the digest in a permanent name.
 const DIGEST_DIGITS: usize = 8;
+/// The part of a name that stands for a text without letters and digits.
+const NAMELESS: &str = "none";
+/// Largest number of letters of a part of a name: three parts and the digest fit into the name of a file.
+const LONGEST_PART: usize = 64;
 
 /// A passport, read. The fields are described by `tristack schema passport`.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
@@ -202,10 +206,36 @@ pub fn permanent_name(passport: &PassportFile, text: &[u8]) -> String {
     format!("{}_{}", parts.join("_"), &digest[..DIGEST_DIGITS])
 }
 
-/// `text` in lower-case letters, digits and points, with a hyphen for everything between them.
+/// `text` in lower-case letters, digits and points, with a hyphen for everything between them. No word begins or ends
+/// with a point, so that no name is hidden or leads out of its directory; a text without letters and digits is `none`.
 pub fn plain(text: &str) -> String {
     let lower = text.to_lowercase();
     let words = lower.split(|char: char| !(char.is_ascii_alphanumeric() || char == '.'));
+    let words = words.map(|word| word.trim_matches('.'));
     let words: Vec<&str> = words.filter(|word| !word.is_empty()).collect();
-    words.join("-")
+    match words.join("-") {
+        name if name.is_empty() => NAMELESS.to_owned(),
+        name => name.chars().take(LONGEST_PART).collect(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_name_is_hidden_leads_elsewhere_or_is_too_long() {
+        for (text, name) in [
+            ("../../x", "x"),
+            (".hidden", "hidden"),
+            ("a/../b", "a-b"),
+            ("..", NAMELESS),
+            ("", NAMELESS),
+            ("$\\input{x}$", "input-x"),
+            ("LAMMPS 23.06", "lammps-23.06"),
+        ] {
+            assert_eq!(plain(text), name, "{text}");
+        }
+        assert_eq!(plain(&"long".repeat(99)).len(), LONGEST_PART);
+    }
 }

@@ -1,6 +1,6 @@
 //! The atlas of the passports on file: what it finds, that its numbers are theirs, and its pages in a real browser.
 
-use crate::common::browser::inspected;
+use crate::common::browser::{browser, inspected, laid_out};
 use crate::common::{Bench, files_below, json_rows, passports, project, standard_error};
 use std::collections::{BTreeSet, HashMap};
 use std::fs;
@@ -430,6 +430,62 @@ fn a_browser_shows_the_latest_versions_on_every_width_and_fetches_nothing() {
             );
         }
     }
+}
+
+#[test]
+fn the_overview_filters_its_rows_and_no_other_script_runs() {
+    let Some(browser) = browser() else { return };
+    let bench = Bench::without_codes();
+    let page = page("index.html");
+    assert!(!page.contains("<tr hidden"));
+    let strange = "<script>document.title = 'strange'</script></body>";
+    let output = laid_out(&browser, &bench, &page.replace("</body>", strange), 1400);
+    let dom = String::from_utf8_lossy(&output.stdout);
+    let hidden = between(&dom, "<tr data-latest=\"", ">");
+    let (latest, earlier): (Vec<&str>, Vec<&str>) = hidden.partition(|row| row.starts_with("true"));
+    assert!(latest.len() > 3 && earlier.len() > 3, "{dom}");
+    assert!(earlier.iter().all(|row| row.contains("hidden")));
+    assert!(!latest.iter().any(|row| row.contains("hidden")));
+    assert!(
+        dom.contains("<title>Atlas of contacts</title>"),
+        "{}",
+        &dom[..900]
+    );
+}
+
+/// Names and versions are texts of somebody else: they become no markup, no formula of a spreadsheet, and no file
+/// outside of the site or hidden in it.
+#[test]
+fn texts_of_a_passport_are_text_on_pages_in_tables_and_in_the_names_of_files() {
+    let mut document: serde_json::Value = serde_json::from_slice(&native().text).expect("JSON");
+    document["software"] = "../../x<script>alert(1)</script>".into();
+    document["style"] = "=HYPERLINK(\"http://x\")".into();
+    document["program"]["version"] = "$\\input{/etc/passwd}$".into();
+    let text = serde_json::to_vec_pretty(&document).expect("JSON");
+    let name = NamedPassport::read(text.clone()).expect("a passport").name;
+    assert!(
+        name.starts_with("x-script-alert-1-script_input-etc-passwd_hyperlink-http-x_"),
+        "{name}"
+    );
+    let bench = Bench::without_codes();
+    fs::create_dir(bench.path("filed")).expect("a directory");
+    fs::write(bench.path(&format!("filed/{name}.json")), text).expect("a passport");
+    let line = "atlas --passports filed --out site";
+    bench.tristack(line).assert().success();
+    let site = bench.path("site");
+    for file in files_below(&site) {
+        let name = file.to_string_lossy().into_owned();
+        assert!(!name.contains("/.") && !name.starts_with('.'), "{name}");
+        if name.ends_with(".html") {
+            let page = fs::read_to_string(site.join(&file)).expect("a page");
+            assert!(!page.contains("<script>alert"), "{name}");
+            assert!(page.contains("Content-Security-Policy"), "{name}");
+        }
+    }
+    let table = fs::read(site.join("atlas.csv")).expect("a table");
+    let mut table = csv::Reader::from_reader(table.as_slice());
+    let row = table.records().next().expect("a row").expect("CSV");
+    assert_eq!(&row[3], "'=HYPERLINK(\"http://x\")");
 }
 
 /// A passport like one on file, with another number.

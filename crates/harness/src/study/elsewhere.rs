@@ -43,7 +43,8 @@ pub struct Plan {
     pub code: String,
     /// The folder that describes the code; absent for the codes that are part of tristack.
     pub folder: Option<PathBuf>,
-    /// Version of the program, if it was installed where the plan was made.
+    /// Version of the program, in plans of earlier versions of tristack: planning starts no program.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub version: Option<String>,
     /// The rows that are to be judged.
     pub rows: Vec<PlannedRow>,
@@ -120,7 +121,6 @@ impl Plan {
         rows: Vec<PlannedRow>,
         root: &Path,
         command: &str,
-        version: Option<String>,
     ) -> Result<(Self, Vec<PreparedRun>), InvalidValue> {
         let (mut prepared, further) = micro_tests(code, root)?;
         // What single precision resolves, the micro-tests show.
@@ -146,7 +146,7 @@ impl Plan {
             tristack: env!("CARGO_PKG_VERSION").to_owned(),
             code: code.as_str().to_owned(),
             folder: code.folder().map(Path::to_owned),
-            version,
+            version: None,
             rows,
             continues: further || is_open,
             steps: runs.iter().map(|run| run.steps).sum(),

@@ -65,9 +65,14 @@ fn watch(
     let mut waited = Duration::ZERO;
     let mut last_poll = Instant::now();
     loop {
-        if let Some(status) = child.try_wait()? {
+        if let Some(ended) = child.try_wait().transpose() {
             // Kills what is left of its process group.
             let _ = child.start_kill();
+            if guard::ended(child.id()) {
+                return Err(FailureKind::Unguarded);
+            }
+            // The group of a guard that was killed had nobody to wait for, which is an error.
+            let status = ended?;
             return match ended_with_tristack(job, status) {
                 true => Err(FailureKind::Interrupted),
                 false => Ok(status),
@@ -121,7 +126,7 @@ fn spawn(job: &Job) -> std::io::Result<Box<dyn ChildWrapper>> {
         [] => Stdio::null(),
         _ => Stdio::piped(),
     };
-    CommandWrap::with_new(program, |command| {
+    let mut guarded = CommandWrap::with_new(program, |command| {
         command
             .args(words)
             .current_dir(job.directory)
@@ -135,13 +140,20 @@ fn spawn(job: &Job) -> std::io::Result<Box<dyn ChildWrapper>> {
             .stdin(input)
             .stdout(Stdio::piped())
             .stderr(Stdio::piped());
-    })
-    .wrap(ProcessGroup::leader())
-    .spawn()
+    });
+    guarded.wrap(ProcessGroup::leader());
+    guard::start(|| guarded.spawn(), |child| child.id())
 }
 
 /// Lets a guard clean up, if there is one, and kills the remaining processes.
 fn kill(child: &mut dyn ChildWrapper) -> std::io::Result<()> {
+    let ended = end(child);
+    // Whatever its end was like, nothing of it stays.
+    guard::ended(child.id());
+    ended
+}
+
+fn end(child: &mut dyn ChildWrapper) -> std::io::Result<()> {
     let guarded = child.stdin().take().is_some();
     let start = Instant::now();
     while guarded && child.try_wait()?.is_none() && start.elapsed() < LONGEST_CLEANING {

@@ -51,6 +51,13 @@ pub fn run<W: Write + Send + 'static>(
     let mut child = spawn(job)?;
     let output = child.stdout().take().map(|pipe| capture(pipe, output));
     let error = child.stderr().take().map(|pipe| capture(pipe, error));
+    let (output, error) = match (output.transpose(), error.transpose()) {
+        (Ok(output), Ok(error)) => (output, error),
+        (Err(error), _) | (_, Err(error)) => {
+            kill(child.as_mut())?;
+            return Err(error.into());
+        }
+    };
     let status = watch(job, child, progress);
     error.and_then(|copied| copied.recv_timeout(LONGEST_REST).ok());
     let output = output.and_then(|copied| copied.recv_timeout(LONGEST_REST).ok());

@@ -5,7 +5,9 @@ use std::process::ExitCode;
 use tristack::{cli, code};
 
 fn main() -> ExitCode {
-    code::guard_foreign_programs();
+    code::guard_foreign_programs(|warning| {
+        let _ = writeln!(std::io::stderr(), "warning: {warning}");
+    });
     let status = cli::run(std::env::args_os()).unwrap_or_else(|error| {
         // Standard error may be closed.
         let _ = writeln!(std::io::stderr(), "error: {error}");

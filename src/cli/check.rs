@@ -4,7 +4,7 @@ use super::code_names::code_in_folder;
 use super::findings::exchange;
 use super::options::{Format, StoreOptions, seconds, time_limit};
 use super::progress::during;
-use super::{CliError, ExitStatus, INTERRUPT, tell};
+use super::{CliError, ExitStatus, INTERRUPT, complain, tell};
 use crate::code::{Code, RunContext};
 use crate::files::FileError;
 use crate::model::shown;
@@ -51,6 +51,14 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
             let phase = format!("checking {}", shown(Path::new(folder)));
             let report = during(&phase, || check_code(&code, folder, &context));
             let mut report = report.map_err(FileError::writing(&place))?;
+            if INTERRUPT.requested() {
+                // What ended with the interrupt is no mistake of the code, and nobody knows which items those are.
+                complain!(
+                    "the check of {} was not finished, and its items are not printed; the same command begins anew",
+                    shown(Path::new(folder))
+                );
+                return Ok(ExitStatus::Interrupted);
+            }
             exchange_findings(&code, &mut report, &arguments.store)?;
             report
         }
@@ -96,9 +104,6 @@ fn exchange_findings(
 
 /// Summarizes the items on standard error, and returns the exit status.
 fn conclude(report: &Report) -> ExitStatus {
-    if INTERRUPT.requested() {
-        return ExitStatus::Interrupted;
-    }
     let failures = report.failures().count();
     tell!("{} of {} items failed", failures, report.items.len());
     match report.failed_grade() {

@@ -10,7 +10,8 @@ use clap::Args;
 /// List the codes: installed or not, version, contact convention
 ///
 /// Besides the built-in codes there are those of the folders in `tristack/codes` of the user's data directory
-/// ($XDG_DATA_HOME, or ~/.local/share), each of which has a manifest, code.toml.
+/// ($XDG_DATA_HOME, or ~/.local/share), each of which has a manifest, code.toml. A folder is a program: each that is installed
+/// is started once, with the question for its version.
 #[derive(Debug, Args)]
 #[command(after_help = "Example: tristack codes --format json")]
 pub(super) struct Arguments {

@@ -66,8 +66,8 @@ fn receive(signal: i32) {
 /// Stops everything because the time is up, which batch systems announce with SIGUSR1.
 fn end_time() {
     if !INTERRUPT.end_time() {
-        std::thread::spawn(|| {
-            tell!("out of time: finished runs are kept, and what native runs have done so far");
+        notify(|| {
+            tell!("out of time: finished runs are kept, and what native runs have done so far")
         });
     }
 }
@@ -76,12 +76,15 @@ fn interrupt() {
     if INTERRUPT.request() {
         std::process::exit(ExitStatus::Interrupted.code().into());
     }
-    // From a thread of its own: writing may block, and a second interrupt must not wait for that.
-    std::thread::spawn(|| {
-        complain!(
-            "interrupted: finished runs are kept; a second interrupt ends everything at once"
-        );
+    notify(|| {
+        complain!("interrupted: finished runs are kept; a second interrupt ends everything at once")
     });
+}
+
+/// Writes a note from a thread of its own: writing may block, and a second interrupt must not wait for that. Where the
+/// system starts no thread, there is no note.
+fn notify(write: impl FnOnce() + Send + 'static) {
+    let _ = std::thread::Builder::new().spawn(write);
 }
 
 /// Returns the signals that interrupt. SIGHUP is left alone if it was ignored at the start, as under `nohup`. SIGINT

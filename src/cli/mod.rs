@@ -18,6 +18,7 @@ mod impacts;
 mod interrupt;
 mod judge;
 mod judge_series;
+mod limits;
 mod man;
 mod options;
 mod out;
@@ -164,6 +165,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> Result<ExitStatus, 
         streams::be_quiet();
     }
     if !matches!(cli.command, Command::Guard(_)) {
+        limits::explain();
         interrupt::listen();
     }
     let command = command_line::command_line(&arguments);

@@ -23,9 +23,10 @@ enum Command {
 
 /// Compare two passports: what changed, by how many uncertainties, and what it does to three yield forces
 ///
-/// The exit status is 2 if anything differs by more than the uncertainties of both and the tolerance of the probe, and 0
-/// otherwise, so that a code can be held to the passport of its last release. What is unknown to one of them because its
-/// motions have few digits is no difference, and is named.
+/// The exit status is 2 if anything differs by more than the uncertainties of both and the tolerance of the probe, 4 if
+/// nothing does but an uncertainty would hide it or nothing is known to both, and 0 otherwise, so that a code can be held to
+/// the passport of its last release. What is unknown to one of them because its motions have few digits is no difference,
+/// and is named, as is what neither knows. A passport that contradicts itself is refused.
 #[derive(Debug, Args)]
 #[command(
     after_help = "Example: tristack probe --codes ./mydem --out now; tristack passport diff released.json now/mydem.json"
@@ -81,12 +82,32 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
             );
         }
     }
+    for (names, what) in [
+        (&found.neither, "known to neither, and not compared"),
+        (
+            &found.undecided,
+            "the uncertainties would hide a difference of a thousandth",
+        ),
+    ] {
+        if !names.is_empty() {
+            tell!("{what}: {}", names.join(", "));
+        }
+    }
+    let files = [&before, &after].map(|own| own.passport.is_coarse_because().is_some());
+    let is_open = found.is_open(files.contains(&true));
     match found.changes.len() {
+        0 if found.compared == 0 => {
+            tell!("nothing is known to both passports, so that nothing was compared")
+        }
+        0 if is_open => {
+            tell!("nothing differs as far as the uncertainties show, which is not far enough")
+        }
         0 => tell!("nothing differs by more than the uncertainties"),
         1 => tell!("1 rule or property differs"),
         count => tell!("{count} rules and properties differ"),
     }
     Ok(match found.is_none() {
+        true if is_open => printed.max(ExitStatus::Inconclusive),
         true => printed,
         false => printed.max(ExitStatus::Disagreement),
     })

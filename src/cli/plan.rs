@@ -24,7 +24,7 @@ const SLOWER: f64 = 10.0;
 ///
 /// Writes a directory for every run of a crosscheck with all that the code is given, and lists of what to start where:
 /// start.txt for a shell, parallel.txt for GNU parallel, array.slurm for Slurm. Needs the folder of the code, not its
-/// program. Runs come in up to three rounds: micro-tests, further ones that follow from their results, and the stacks
+/// program, and starts none. Runs come in up to three rounds: micro-tests, further ones that follow from their results, and the stacks
 /// if the manifest leaves out parts of the convention. The same command again adds the next round. A run that has a result is left as it is.
 #[derive(Debug, Args)]
 #[command(
@@ -65,10 +65,8 @@ pub(super) fn run(arguments: &Arguments, command: &str) -> Result<ExitStatus, Cl
     Out::claim(Some(root), &layout())?;
     let earlier = Plan::read(root)?;
     let rows = rows(arguments, earlier.as_ref())?;
-    let installed = code.find().filter(|found| found.broken().is_none());
-    let is_here = installed.is_some();
-    let version = installed.map(|found| found.identity().version.clone());
-    let (plan, prepared) = Plan::new(&code, rows, root, command, version)?;
+    let is_here = code.is_here();
+    let (plan, prepared) = Plan::new(&code, rows, root, command)?;
     let out = Out::claimed(root, PLAN);
     let planned = out.write(|| vec![(PLAN, plan.to_json())]);
     if planned != ExitStatus::Success {

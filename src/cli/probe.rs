@@ -111,7 +111,14 @@ fn file(directory: &Path, passports: &[Passport], command: &str) -> ExitStatus {
     let mut worst = ExitStatus::Success;
     for own in passports {
         let text = passport_json(own, command).into_bytes();
-        let named = NamedPassport::read(text).expect("a passport that was just made");
+        let named = match NamedPassport::read(text) {
+            Ok(named) => named,
+            Err(error) => {
+                complain!("error: the passport of {} is not filed: {error}", own.code);
+                worst = worst.max(ExitStatus::NotWritten);
+                continue;
+            }
+        };
         let path = directory.join(format!("{}.json", named.name));
         worst = worst.max(write(&path, &named.text));
         tell!("{}", shown(&path));

@@ -3,6 +3,7 @@
 use crate::common::{Bench, network};
 use std::fs;
 use std::io::Read;
+use std::os::unix::fs::PermissionsExt;
 use std::os::unix::process::ExitStatusExt;
 use std::process::{Child, Command, Output, Stdio};
 
@@ -118,4 +119,72 @@ fn a_guard_is_nothing_to_type() {
     let output = bench.tristack("--help").output().expect("it runs");
     let help = String::from_utf8(output.stdout).expect("text");
     assert!(!help.contains("guard"), "{help}");
+}
+
+/// Makes the folder of a code whose program, a shell script, has the same name.
+fn folder(bench: &Bench, name: &str, script: &str) {
+    let folder = bench.path(name);
+    fs::create_dir(&folder).expect("a folder");
+    let manifest = format!(
+        "schema = 1\nname = \"{name}\"\n[program]\ncommand = [\"{name}\"]\nsearch = [\"{{folder}}\"]\n\
+         [tasks.stack]\n[tasks.motion]\n"
+    );
+    fs::write(folder.join("code.toml"), manifest).expect("a manifest");
+    let program = folder.join(name);
+    fs::write(&program, format!("#!/bin/sh\n{script}")).expect("a program");
+    let executable = fs::Permissions::from_mode(0o755);
+    fs::set_permissions(&program, executable).expect("it may be run");
+}
+
+/// A code whose program goes on after it has killed the process that would end it.
+#[test]
+fn what_kills_its_guard_ends_all_the_same_and_its_run_fails() {
+    let bench = Bench::with_system_programs();
+    let numbers = bench.path("numbers");
+    let script = format!(
+        "setsid sh -c 'echo $$ >> {0}; exec sleep 600' &\necho $$ >> {0}\n\
+         until [ $(wc -l < {0}) -ge 2 ]; do sleep 0.01; done\nkill -9 $PPID\nexec sleep 600\n",
+        numbers.display()
+    );
+    folder(&bench, "escape", &script);
+    let line = "crosscheck --codes ./escape --mu 0.3 --stiffness 100 --time-limit 60 --jobs 1";
+    let output = bench.tristack(line).output().expect("it runs");
+    let message = String::from_utf8_lossy(&output.stderr).into_owned()
+        + &String::from_utf8_lossy(&output.stdout);
+    let left = fs::read_to_string(&numbers).expect("its processes");
+    assert!(left.lines().count() >= 2, "{message}");
+    let living: Vec<&str> = left.lines().filter(|own| is_running(own)).collect();
+    assert!(living.is_empty(), "{living:?}: {message}");
+    assert!(
+        message.contains("was ended first; what was left was ended as well"),
+        "{message}"
+    );
+    assert_eq!(output.status.code(), Some(3), "{message}");
+}
+
+/// In a name space of its own this user may be refused further ones.
+#[test]
+fn where_no_network_can_be_left_a_warning_says_so_once() {
+    let bench = Bench::with_system_programs();
+    folder(&bench, "useless", "exit 1");
+    let tristack = bench.process("");
+    let program = tristack.get_program().to_owned();
+    let script = format!(
+        "echo 0 > /proc/sys/user/max_net_namespaces && exec {} crosscheck --codes ./useless --mu 0.3 --stiffness 100",
+        program.display()
+    );
+    let mut command = Command::new("unshare");
+    command.args(["--user", "--map-root-user", "sh", "-c", &script]);
+    command.current_dir(bench.path(""));
+    command.env("TRISTACK_STORE", bench.path("store"));
+    let output = command.output().expect("unshare is installed");
+    let message = String::from_utf8_lossy(&output.stderr).into_owned();
+    if message.contains("unshare") || message.contains("max_net_namespaces") {
+        eprintln!("no name space to try this in: {message}");
+        return;
+    }
+    let count = message
+        .matches("warning: the system lets this user leave no network")
+        .count();
+    assert_eq!(count, 1, "{message}");
 }

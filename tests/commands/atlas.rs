@@ -1,6 +1,6 @@
 //! The atlas of the passports on file: what it finds, that its numbers are theirs, and its pages in a real browser.
 
-use crate::common::browser::inspected;
+use crate::common::browser::{browser, inspected, laid_out};
 use crate::common::{Bench, files_below, json_rows, passports, project, standard_error};
 use std::collections::{BTreeSet, HashMap};
 use std::fs;
@@ -432,6 +432,62 @@ fn a_browser_shows_the_latest_versions_on_every_width_and_fetches_nothing() {
     }
 }
 
+#[test]
+fn the_overview_filters_its_rows_and_no_other_script_runs() {
+    let Some(browser) = browser() else { return };
+    let bench = Bench::without_codes();
+    let page = page("index.html");
+    assert!(!page.contains("<tr hidden"));
+    let strange = "<script>document.title = 'strange'</script></body>";
+    let output = laid_out(&browser, &bench, &page.replace("</body>", strange), 1400);
+    let dom = String::from_utf8_lossy(&output.stdout);
+    let hidden = between(&dom, "<tr data-latest=\"", ">");
+    let (latest, earlier): (Vec<&str>, Vec<&str>) = hidden.partition(|row| row.starts_with("true"));
+    assert!(latest.len() > 3 && earlier.len() > 3, "{dom}");
+    assert!(earlier.iter().all(|row| row.contains("hidden")));
+    assert!(!latest.iter().any(|row| row.contains("hidden")));
+    assert!(
+        dom.contains("<title>Atlas of contacts</title>"),
+        "{}",
+        &dom[..900]
+    );
+}
+
+/// Names and versions are texts of somebody else: they become no markup, no formula of a spreadsheet, and no file
+/// outside of the site or hidden in it.
+#[test]
+fn texts_of_a_passport_are_text_on_pages_in_tables_and_in_the_names_of_files() {
+    let mut document: serde_json::Value = serde_json::from_slice(&native().text).expect("JSON");
+    document["software"] = "../../x<script>alert(1)</script>".into();
+    document["style"] = "=HYPERLINK(\"http://x\")".into();
+    document["program"]["version"] = "$\\input{/etc/passwd}$".into();
+    let text = serde_json::to_vec_pretty(&document).expect("JSON");
+    let name = NamedPassport::read(text.clone()).expect("a passport").name;
+    assert!(
+        name.starts_with("x-script-alert-1-script_input-etc-passwd_hyperlink-http-x_"),
+        "{name}"
+    );
+    let bench = Bench::without_codes();
+    fs::create_dir(bench.path("filed")).expect("a directory");
+    fs::write(bench.path(&format!("filed/{name}.json")), text).expect("a passport");
+    let line = "atlas --passports filed --out site";
+    bench.tristack(line).assert().success();
+    let site = bench.path("site");
+    for file in files_below(&site) {
+        let name = file.to_string_lossy().into_owned();
+        assert!(!name.contains("/.") && !name.starts_with('.'), "{name}");
+        if name.ends_with(".html") {
+            let page = fs::read_to_string(site.join(&file)).expect("a page");
+            assert!(!page.contains("<script>alert"), "{name}");
+            assert!(page.contains("Content-Security-Policy"), "{name}");
+        }
+    }
+    let table = fs::read(site.join("atlas.csv")).expect("a table");
+    let mut table = csv::Reader::from_reader(table.as_slice());
+    let row = table.records().next().expect("a row").expect("CSV");
+    assert_eq!(&row[3], "'=HYPERLINK(\"http://x\")");
+}
+
 /// A passport like one on file, with another number.
 fn changed(own: &NamedPassport, place: &str, property: &str, value: f64) -> Vec<u8> {
     let mut document: serde_json::Value = serde_json::from_slice(&own.text).expect("JSON");
@@ -484,6 +540,104 @@ fn a_diff_tells_what_changed_by_how_much_and_what_it_does() {
         .tristack("passport diff before.json after.json")
         .assert()
         .code(0);
+}
+
+/// A passport like one on file, with its rows of properties edited.
+fn edited(own: &NamedPassport, edit: impl Fn(&mut Vec<serde_json::Value>)) -> Vec<u8> {
+    let mut document: serde_json::Value = serde_json::from_slice(&own.text).expect("JSON");
+    edit(document["properties"]["rows"].as_array_mut().expect("rows"));
+    serde_json::to_vec_pretty(&document).expect("JSON")
+}
+
+#[test]
+fn a_passport_that_contradicts_itself_is_refused_by_its_row() {
+    let bench = Bench::without_codes();
+    let native = native();
+    fs::write(bench.path("before.json"), &native.text).expect("a file");
+    let name = native.passport.properties[0].property.clone();
+    let again = |rows: &mut Vec<serde_json::Value>| rows.push(rows[0].clone());
+    let of = |key: &'static str, value: serde_json::Value| {
+        edited(&native, |rows| rows[0][key] = value.clone())
+    };
+    for (text, words) in [
+        (of("uncertainty", (-1.0).into()), "is -1, below 0"),
+        (
+            of("measured", serde_json::Value::Null),
+            "has the verdict `agrees`, but no measured value",
+        ),
+        (
+            of("verdict", "differs".into()),
+            "but the passport as a whole `agrees`",
+        ),
+        (edited(&native, again), "stands there twice"),
+    ] {
+        fs::write(bench.path("after.json"), text).expect("a file");
+        for line in [
+            "passport diff before.json after.json",
+            "passport diff after.json before.json",
+        ] {
+            let mut command = bench.tristack(line);
+            let message = standard_error(&mut command);
+            let named = format!("after.json: the uncertainty of `{name}`");
+            let named = named.as_str();
+            let plain = format!("after.json: `{name}` ");
+            assert!(
+                message.contains(words) && (message.contains(named) || message.contains(&plain)),
+                "{message}"
+            );
+            command.assert().code(1);
+        }
+    }
+    let other = changed(&native, "properties", "pair_torque_arm", 0.25);
+    fs::write(bench.path("after.json"), other).expect("a file");
+    let mut command = bench.tristack("passport diff before.json after.json");
+    let message = standard_error(&mut command);
+    let words = "but `pair_torque_arm`, the same arm, 0.25";
+    assert!(message.contains(words), "{message}");
+    command.assert().code(1);
+}
+
+#[test]
+fn a_diff_that_could_not_see_a_difference_says_so() {
+    let bench = Bench::without_codes();
+    let native = native();
+    fs::write(bench.path("before.json"), &native.text).expect("a file");
+    let name = native.passport.properties[0].property.clone();
+    let diff = |text: Vec<u8>, before: &str| {
+        fs::write(bench.path("after.json"), text).expect("a file");
+        let line = format!("passport diff {before}.json after.json");
+        let output = bench.tristack(&line).output().expect("it runs");
+        let message = String::from_utf8_lossy(&output.stderr).into_owned();
+        (output.status.code(), message)
+    };
+    for lost in [1.0.into(), serde_json::Value::Null] {
+        let coarse = edited(&native, |rows| rows[0]["uncertainty"] = lost.clone());
+        fs::write(bench.path("coarse.json"), &coarse).expect("a file");
+        let (status, message) = diff(coarse, "coarse");
+        let named = format!("would hide a difference of a thousandth: {name}\n");
+        assert!(message.contains(&named), "{message}");
+        assert_eq!(status, Some(4), "{message}");
+    }
+    let unknown = edited(&native, |rows| {
+        rows[0]["measured"] = serde_json::Value::Null;
+        rows[0]["uncertainty"] = serde_json::Value::Null;
+        rows[0]["verdict"] = "inconclusive".into();
+    });
+    fs::write(bench.path("coarse.json"), &unknown).expect("a file");
+    let (status, message) = diff(unknown, "coarse");
+    let named = format!("known to neither, and not compared: {name}\n");
+    assert!(message.contains(&named), "{message}");
+    assert_eq!(status, Some(0), "{message}");
+
+    let mut document: serde_json::Value = serde_json::from_slice(&native.text).expect("JSON");
+    for table in ["properties", "convention"] {
+        document[table]["rows"] = serde_json::json!([]);
+    }
+    let empty = serde_json::to_vec(&document).expect("JSON");
+    fs::write(bench.path("coarse.json"), &empty).expect("a file");
+    let (status, message) = diff(empty, "coarse");
+    assert!(message.contains("nothing was compared"), "{message}");
+    assert_eq!(status, Some(4), "{message}");
 }
 
 #[test]

@@ -26,6 +26,7 @@ mod identity;
 mod interruption;
 mod judge_series;
 mod left_out;
+mod limits;
 mod no_locks;
 mod paths;
 mod plan_and_judge;

@@ -597,3 +597,95 @@ fn rows_that_wait_for_results_are_skipped_tests() {
     assert_eq!(tests.matches("<testcase ").count(), 1, "{tests}");
     assert!(tests.contains("<skipped "), "{tests}");
 }
+
+/// Somebody who may write into the directory of a plan could let it write and read elsewhere.
+#[test]
+fn directories_of_runs_that_are_links_are_neither_written_nor_read_through() {
+    let bench = bench();
+    let plan = plan(&bench, ONE_STACK);
+    let run = plan.runs.last().expect("a run");
+    let directory = bench.path("away").join(&run.directory);
+    let elsewhere = bench.path("elsewhere");
+    fs::create_dir(&elsewhere).expect("a directory");
+    let stack = directory
+        .parent()
+        .expect("the directory of the stack")
+        .to_owned();
+    for (linked, target) in [
+        (&directory, elsewhere.clone()),
+        (&stack, bench.path("elsewhere/stack")),
+    ] {
+        let kept = bench.path("kept");
+        fs::rename(linked, &kept).expect("it moves");
+        fs::create_dir_all(&target).expect("a directory");
+        symlink(&target, linked).expect("a link");
+        let refused = format!(
+            "{}: it is a symbolic link; accepted is a directory that tristack plan has made",
+            linked
+                .strip_prefix(bench.path(""))
+                .expect("below")
+                .display()
+        );
+        let line = format!("plan --code ./standin --out away {ONE_STACK}");
+        let mut command = bench.tristack(&line);
+        let message = standard_error(&mut command);
+        assert!(message.contains(&refused), "{message}");
+        command.assert().code(1);
+        assert_eq!(fs::read_dir(&target).expect("a directory").count(), 0);
+
+        // What lies behind the link is no result of the plan.
+        let behind = target.join(directory.strip_prefix(linked).expect("below it"));
+        fs::create_dir_all(&behind).expect("a directory");
+        for (name, content) in
+            kept_files(&kept.join(directory.strip_prefix(linked).expect("below")))
+        {
+            fs::write(behind.join(name), content).expect("a file");
+        }
+        fs::write(behind.join(&run.result), native_result(run)).expect("a result");
+        let mut command = bench.tristack("judge away");
+        let message = standard_error(&mut command);
+        assert!(message.contains(&refused), "{message}");
+        command.assert().code(3);
+        fs::remove_file(linked).expect("the link goes");
+        fs::rename(&kept, linked).expect("it moves back");
+        fs::remove_dir_all(&elsewhere).expect("it goes");
+    }
+}
+
+/// Names and contents of the files in `directory`.
+fn kept_files(directory: &Path) -> Vec<(std::ffi::OsString, Vec<u8>)> {
+    let entries = fs::read_dir(directory).expect("a directory");
+    let entries = entries.map(|entry| entry.expect("an entry"));
+    entries
+        .map(|entry| (entry.file_name(), fs::read(entry.path()).expect("a file")))
+        .collect()
+}
+
+#[test]
+fn a_row_or_a_run_that_stands_in_a_plan_twice_is_refused() {
+    let bench = bench();
+    plan(&bench, ONE_STACK);
+    let path = bench.path("away/plan.json");
+    let text = fs::read_to_string(&path).expect("a plan");
+    for (list, words) in [
+        (
+            "rows",
+            "`rows` has the row of mu 0.3, stiffness 100 twice (number 2)",
+        ),
+        ("runs", "`runs` has the run with the deck_hash "),
+    ] {
+        let mut document = json(&text);
+        let entries = document[list].as_array_mut().expect("a list");
+        entries.push(entries[0].clone());
+        fs::write(&path, serde_json::to_vec_pretty(&document).expect("JSON")).expect("a file");
+        for line in [
+            "judge away".to_owned(),
+            format!("plan --code ./standin --out away {ONE_STACK}"),
+        ] {
+            let mut command = bench.tristack(&line);
+            let message = standard_error(&mut command);
+            assert!(message.contains(words), "{line}: {message}");
+            command.assert().code(1);
+        }
+    }
+}

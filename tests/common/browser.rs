@@ -14,6 +14,7 @@ pub fn inspected(page: &str, width: u32) -> Option<serde_json::Value> {
     let browser = browser()?;
     let bench = Bench::without_codes();
     let script = include_str!("../page_inspection.js");
+    let page = without_policy(page);
     let page = page.replace("</body>", &format!("<script>{script}</script></body>"));
     let output = laid_out(&browser, &bench, &page, width);
     let dom = String::from_utf8_lossy(&output.stdout).into_owned();
@@ -27,6 +28,14 @@ pub fn inspected(page: &str, width: u32) -> Option<serde_json::Value> {
             .replace("&gt;", ">")
             .replace("&amp;", "&"),
     ))
+}
+
+/// The `page` without its content security policy, which would stop the scripts of tests.
+pub fn without_policy(page: &str) -> String {
+    let mark = "<meta http-equiv=\"Content-Security-Policy\"";
+    let (before, rest) = page.split_once(mark).expect("a page with a policy");
+    let (_, after) = rest.split_once('>').expect("its end");
+    format!("{before}{after}")
 }
 
 /// The document as `browser` prints it after the scripts of the page have run; no name is resolved.

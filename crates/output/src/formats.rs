@@ -20,7 +20,8 @@ Made from the declarations in the source (`tristack::output::formats_page`); a t
 `TRISTACK_UPDATE_GOLDEN=1 cargo test --test documents formats` writes it anew.
 
 Every table has the same columns and the same numbers, with all their digits, in CSV and in JSON. A missing value is an
-empty field in CSV and `null` in JSON. Tables on a terminal, in Markdown and HTML show some of the columns, with
+empty field in CSV and `null` in JSON. A text that a spreadsheet would take for a formula (it begins with `=`, `+`, `-`,
+`@`, a tab or a line break, and is no number) begins with an apostrophe in CSV; in JSON it stays as it is. Tables on a terminal, in Markdown and HTML show some of the columns, with
 the digits that people want.
 
 JSON is an object:

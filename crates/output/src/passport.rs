@@ -3,7 +3,7 @@
 use super::number::{digits, one_digit, relative};
 use super::probe::probe;
 use super::table::{Columns, DataTable};
-use super::text::{markdown_code, markdown_text};
+use super::text::{markdown_code, markdown_text, without_mathematics};
 use crate::code::{Code, Identity, TaskKind};
 use crate::study::Verdict;
 use crate::study::convention::reservations;
@@ -177,7 +177,7 @@ pub fn passport_markdown(passport: &Passport, command: &str) -> String {
     let provenance = &findings.provenance;
     let mut page = format!(
         "# Passport of {}\n\n{}\n\nProbed by tristack {} on {} with {}.\n\n**{}**\n\n",
-        markdown_text(&code.label()),
+        markdown_text(&without_mathematics(&code.label())),
         program(&provenance.identity),
         provenance.tristack,
         &provenance.date.get(..10).unwrap_or(&provenance.date),
@@ -223,8 +223,8 @@ fn program(identity: &Identity) -> String {
     format!(
         "{} {}, {}; SHA-256 of the program {}, of the files that it loads {}.",
         markdown_code(&identity.code),
-        markdown_text(&identity.version),
-        markdown_text(package),
+        markdown_text(&without_mathematics(&identity.version)),
+        markdown_text(&without_mathematics(package)),
         hash(&identity.program_hash),
         hash(&identity.files_hash)
     )

@@ -71,6 +71,12 @@ impl<'a, T: Task> Batch<'a, T> {
             return self.fail(0, kind, report);
         }
         let outcome = self.run_process(context, report);
+        if matches!(outcome, Err(FailureKind::Unguarded)) {
+            for index in self.finished()..self.tasks.len() {
+                self.fail(index, FailureKind::Unguarded, report);
+            }
+            return;
+        }
         self.harvest(report);
         let delivered = self.finished();
         for index in 0..delivered {

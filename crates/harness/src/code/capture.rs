@@ -8,19 +8,22 @@ const HEAD_BYTES: u64 = 1 << 20;
 const TAIL_BYTES: usize = 1 << 16;
 
 /// Copies a pipe to `output` on a separate thread, which sends `output` back once the copy is complete.
+///
+/// # Errors
+/// If the system starts no thread.
 pub(super) fn capture<W: Write + Send + 'static>(
     mut pipe: impl Read + Send + 'static,
     mut output: W,
-) -> Receiver<W> {
+) -> std::io::Result<Receiver<W>> {
     let (sender, copied) = channel();
-    std::thread::spawn(move || {
+    let copier = std::thread::Builder::new().spawn(move || {
         // Output that cannot be written is dropped, because a program is judged by its series.
         if copy(&mut pipe, &mut output).is_err() {
             let _ = std::io::copy(&mut pipe, &mut std::io::sink());
         }
         let _ = sender.send(output);
     });
-    copied
+    copier.map(|_| copied)
 }
 
 /// Copies the first bytes at once and the last ones at the end, with a note on how many were left out between them.

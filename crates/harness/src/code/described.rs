@@ -5,7 +5,7 @@ use super::difference::difference;
 use super::folder::{BUILT_IN, Folder};
 use super::manifest::{Definition, Integration, Mark, RefusedOutside, RefusedValues, TaskKind};
 use super::manifest_error::{ManifestError, Place, refused};
-use super::search_path::{SEARCH_PATH, find_not_executable};
+use super::search_path::{SEARCH_PATH, find_not_executable, find_program};
 use crate::model::{
     ContactConvention, InvalidValue, Law, PAPER_BODIES, Power, Preparation, Stack, shell_quoted,
     shown,
@@ -490,6 +490,16 @@ impl Code {
                 self.installation_hint()
             ),
         }
+    }
+
+    /// Whether its program is here, in one of the places in which it is looked for. It is not started, and may be broken.
+    pub fn is_here(&self) -> bool {
+        let Some(program) = self.definition().program.as_ref() else {
+            return self.is_native();
+        };
+        let mut places = program.search.iter().map(|place| place.get_ref().as_str());
+        let word = program.command.first();
+        word.is_some_and(|word| find_program(&mut places, word).is_some())
     }
 
     /// The places in which its program is looked for, in words.

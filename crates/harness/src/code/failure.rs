@@ -28,6 +28,12 @@ pub enum FailureKind {
     Replaced(PathBuf),
     #[error("the program ended without a series: {0}")]
     Ended(ExitStatus),
+    /// The guard was killed, or made to end, before what it guards.
+    #[error(
+        "its guard, the process that ends what a program leaves behind, was ended first; what was left was ended as well, and \
+         the result is not used"
+    )]
+    Unguarded,
     #[error("the program delivered no series for this case and went on")]
     Skipped,
     #[error("no series after {0:?}; it was stopped (--time-limit allows more seconds)")]

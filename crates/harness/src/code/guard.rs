@@ -7,20 +7,22 @@
 use crate::files::system_text;
 use nix::errno::Errno;
 use nix::sched::{CloneFlags, unshare};
-use nix::sys::prctl::set_child_subreaper;
+use nix::sys::prctl::{set_child_subreaper, set_dumpable};
 use nix::sys::resource::{Resource, getrlimit, setrlimit};
 use nix::sys::signal::{Signal, kill, raise};
 use nix::sys::socket::{AddressFamily, MsgFlags, SockFlag, SockProtocol, SockType, send, socket};
-use nix::sys::wait::{WaitPidFlag, waitpid};
+use nix::sys::wait::{WaitPidFlag, WaitStatus, waitpid};
 use nix::unistd::{Pid, getgid, getpid, getuid};
+use std::collections::BTreeSet;
 use std::ffi::{OsStr, OsString};
 use std::io::Read;
 use std::os::fd::AsRawFd;
 use std::os::unix::process::ExitStatusExt;
 use std::process::{Command, ExitStatus, Stdio};
-use std::sync::LazyLock;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::time::Duration;
+use std::sync::mpsc::channel;
+use std::sync::{LazyLock, Mutex, OnceLock, PoisonError};
+use std::time::{Duration, Instant};
 
 /// The command of `tristack` that runs a guard.
 pub const COMMAND: &str = "guard";
@@ -35,9 +37,64 @@ const LONGEST_FILE: u64 = 1 << 30;
 
 static GUARDED: AtomicBool = AtomicBool::new(false);
 
-/// Guards external programs from now on. Call it only in a program that understands `COMMAND`.
-pub fn guard_foreign_programs() {
+/// Whether the orphans of guards become children of this process.
+static ADOPTS: AtomicBool = AtomicBool::new(false);
+
+/// The processes of the guards that live. It is locked while one is started, so that none is taken for an orphan.
+static GUARDS: Mutex<BTreeSet<i32>> = Mutex::new(BTreeSet::new());
+
+/// Receives a warning.
+static WARN: OnceLock<fn(&str)> = OnceLock::new();
+
+/// Longest time that the orphans of a guard are waited for after they were killed.
+const LONGEST_END: Duration = Duration::from_secs(5);
+
+/// Guards external programs from now on; `warn` receives the warning that they cannot be shut off from the network.
+/// Call it only in a program that understands `COMMAND`, and before it has started anything.
+pub fn guard_foreign_programs(warn: fn(&str)) {
+    let _ = WARN.set(warn);
     GUARDED.store(true, Ordering::SeqCst);
+    // What the program before this one had started in the same process belongs to somebody else.
+    let adopts = children().is_empty() && set_child_subreaper(true).is_ok();
+    ADOPTS.store(adopts, Ordering::SeqCst);
+}
+
+/// Starts a guard by `spawn`, which returns it; `number` is that of its process.
+pub(super) fn start<T>(
+    spawn: impl FnOnce() -> std::io::Result<T>,
+    number: impl FnOnce(&T) -> u32,
+) -> std::io::Result<T> {
+    let mut guards = GUARDS.lock().unwrap_or_else(PoisonError::into_inner);
+    let guard = spawn()?;
+    guards.insert(number(&guard) as i32);
+    Ok(guard)
+}
+
+/// Takes note that the guard with this `number` has ended, and kills what it has left behind. Returns whether there was
+/// anything: a guard that is not killed ends all processes of its program itself.
+pub(super) fn ended(number: u32) -> bool {
+    let mut guards = GUARDS.lock().unwrap_or_else(PoisonError::into_inner);
+    guards.remove(&(number as i32));
+    if !ADOPTS.load(Ordering::SeqCst) {
+        return false;
+    }
+    let (mut found, start) = (false, Instant::now());
+    while start.elapsed() < LONGEST_END {
+        let mut orphans = children();
+        orphans.retain(|child| !guards.contains(&child.as_raw()));
+        if orphans.is_empty() {
+            break;
+        }
+        for orphan in orphans {
+            let _ = kill(orphan, Signal::SIGKILL);
+            found |= !matches!(
+                waitpid(orphan, Some(WaitPidFlag::WNOHANG)),
+                Ok(WaitStatus::Exited(..))
+            );
+        }
+        std::thread::sleep(Duration::from_millis(1));
+    }
+    found
 }
 
 /// Returns the words before the command of an external program. The link leads to this program even after its file
@@ -56,14 +113,22 @@ static MAY_LEAVE_NETWORK: LazyLock<bool> = LazyLock::new(|| {
     let mut guard = Command::new(THIS_PROGRAM);
     guard.args([COMMAND, OFFLINE, "--", THIS_PROGRAM, "--version"]);
     guard.stdout(Stdio::null()).stderr(Stdio::null());
-    let child = guard.stdin(Stdio::piped()).spawn();
+    let child = start(|| guard.stdin(Stdio::piped()).spawn(), |child| child.id());
     let status = child.and_then(|mut child| {
         let held = child.stdin.take();
         let status = child.wait();
         drop(held);
+        ended(child.id());
         status
     });
-    status.is_ok_and(|status| status.success())
+    let may = status.is_ok_and(|status| status.success());
+    if let Some(warn) = WARN.get().filter(|_| !may) {
+        warn(
+            "the system lets this user leave no network (name spaces are refused): external programs have the network \
+             of this user",
+        );
+    }
+    may
 });
 
 /// Runs `command` until it ends or standard input is closed, without a network if `offline`, and kills all its
@@ -76,16 +141,22 @@ pub fn guard(command: &[OsString], offline: bool) -> std::io::Result<ExitStatus>
     if offline {
         leave_network()?;
     }
+    // Nobody without privileges may trace this process from now on, nor read its memory.
+    set_dumpable(false)?;
+    let (sender, started) = channel();
+    let closed = std::thread::Builder::new().spawn(move || {
+        // Nothing is ever written to standard input: the read returns when the other side closes.
+        let _ = std::io::stdin().read(&mut [0]);
+        if let Ok(program) = started.recv() {
+            let _ = kill(program, Signal::SIGKILL);
+        }
+    });
+    closed?;
     let mut child = Command::new(&command[0])
         .args(&command[1..])
         .stdin(Stdio::null())
         .spawn()?;
-    let program = Pid::from_raw(child.id() as i32);
-    std::thread::spawn(move || {
-        // Nothing is ever written to standard input: the read returns when the other side closes.
-        let _ = std::io::stdin().read(&mut [0]);
-        let _ = kill(program, Signal::SIGKILL);
-    });
+    let _ = sender.send(Pid::from_raw(child.id() as i32));
     let status = child.wait()?;
     end_descendants();
     Ok(status)
@@ -162,7 +233,19 @@ fn end_descendants() {
     }
 }
 
+/// Returns the children of this process.
 fn children() -> Vec<Pid> {
+    // One list a thread, where the kernel has them; elsewhere all processes are asked for their parent.
+    let threads = std::fs::read_dir("/proc/self/task").into_iter().flatten();
+    let lists = threads
+        .flatten()
+        .map(|thread| thread.path().join("children"));
+    let lists: Option<Vec<String>> = lists.map(system_text).collect();
+    if let Some(lists) = lists.filter(|lists| !lists.is_empty()) {
+        let numbers = lists.iter().flat_map(|list| list.split_whitespace());
+        let numbers = numbers.filter_map(|number| number.parse().ok());
+        return numbers.map(Pid::from_raw).collect();
+    }
     let processes = std::fs::read_dir("/proc").into_iter().flatten().flatten();
     let numbers = processes.filter_map(|entry| entry.file_name().to_str()?.parse().ok());
     numbers

@@ -9,7 +9,7 @@ use super::manifest_error::refused;
 use super::search_path::{SEARCH_PATH, find_program};
 use super::task::Task;
 use super::written::complaint;
-use crate::files::{FileError, Links, read_bounded, read_end, write_atomically};
+use crate::files::{FileError, Links, read_bounded, read_end, refuse_linked, write_atomically};
 use crate::model::{Case, ContactTest, InvalidValue, readable, sha256_hex, shown};
 use crate::series::SeriesError;
 use serde::{Deserialize, Serialize};
@@ -144,9 +144,10 @@ impl PreparedRun {
     /// left as it is.
     ///
     /// # Errors
-    /// If the file system refuses.
+    /// If the file system refuses, or a directory below `root` is a symbolic link.
     pub fn write(&self, root: &Path) -> Result<(), FileError> {
         let directory = root.join(&self.run.directory);
+        self.run.refuse_links(root)?;
         if is_there(&directory.join(&self.run.result)) {
             return Ok(());
         }
@@ -191,6 +192,7 @@ impl PlannedRun {
         let directory = root.join(&self.directory);
         let result = code.definition().result(task.kind());
         let path = directory.join(&self.result);
+        self.refuse_links(root).map_err(FailureKind::UnusableFile)?;
         if !is_there(&path) {
             return Err(FailureKind::Awaited(path));
         }
@@ -205,8 +207,16 @@ impl PlannedRun {
             })
     }
 
+    /// Refuses directories of the run below `root` that are symbolic links.
+    pub(crate) fn refuse_links(&self, root: &Path) -> Result<(), FileError> {
+        let directory = Path::new(&self.directory);
+        let mut names = self.files.keys().chain([&self.result]);
+        names.try_for_each(|name| refuse_linked(root, &directory.join(name)))
+    }
+
     /// Returns the last line that its program wrote to standard error, below `root`.
     pub(crate) fn complaint(&self, root: &Path) -> Option<String> {
+        self.refuse_links(root).ok()?;
         complaint(&root.join(&self.directory))
     }
 

@@ -51,6 +51,13 @@ pub fn run<W: Write + Send + 'static>(
     let mut child = spawn(job)?;
     let output = child.stdout().take().map(|pipe| capture(pipe, output));
     let error = child.stderr().take().map(|pipe| capture(pipe, error));
+    let (output, error) = match (output.transpose(), error.transpose()) {
+        (Ok(output), Ok(error)) => (output, error),
+        (Err(error), _) | (_, Err(error)) => {
+            kill(child.as_mut())?;
+            return Err(error.into());
+        }
+    };
     let status = watch(job, child, progress);
     error.and_then(|copied| copied.recv_timeout(LONGEST_REST).ok());
     let output = output.and_then(|copied| copied.recv_timeout(LONGEST_REST).ok());
@@ -65,9 +72,14 @@ fn watch(
     let mut waited = Duration::ZERO;
     let mut last_poll = Instant::now();
     loop {
-        if let Some(status) = child.try_wait()? {
+        if let Some(ended) = child.try_wait().transpose() {
             // Kills what is left of its process group.
             let _ = child.start_kill();
+            if guard::ended(child.id()) {
+                return Err(FailureKind::Unguarded);
+            }
+            // The group of a guard that was killed had nobody to wait for, which is an error.
+            let status = ended?;
             return match ended_with_tristack(job, status) {
                 true => Err(FailureKind::Interrupted),
                 false => Ok(status),
@@ -121,7 +133,7 @@ fn spawn(job: &Job) -> std::io::Result<Box<dyn ChildWrapper>> {
         [] => Stdio::null(),
         _ => Stdio::piped(),
     };
-    CommandWrap::with_new(program, |command| {
+    let mut guarded = CommandWrap::with_new(program, |command| {
         command
             .args(words)
             .current_dir(job.directory)
@@ -135,13 +147,20 @@ fn spawn(job: &Job) -> std::io::Result<Box<dyn ChildWrapper>> {
             .stdin(input)
             .stdout(Stdio::piped())
             .stderr(Stdio::piped());
-    })
-    .wrap(ProcessGroup::leader())
-    .spawn()
+    });
+    guarded.wrap(ProcessGroup::leader());
+    guard::start(|| guarded.spawn(), |child| child.id())
 }
 
 /// Lets a guard clean up, if there is one, and kills the remaining processes.
 fn kill(child: &mut dyn ChildWrapper) -> std::io::Result<()> {
+    let ended = end(child);
+    // Whatever its end was like, nothing of it stays.
+    guard::ended(child.id());
+    ended
+}
+
+fn end(child: &mut dyn ChildWrapper) -> std::io::Result<()> {
     let guarded = child.stdin().take().is_some();
     let start = Instant::now();
     while guarded && child.try_wait()?.is_none() && start.elapsed() < LONGEST_CLEANING {

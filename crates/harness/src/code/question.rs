@@ -9,7 +9,7 @@ use std::ffi::OsString;
 use std::sync::OnceLock;
 use std::time::Duration;
 
-/// Attempts at a question if a signal ends the program: the answer becomes part of the address of every run.
+/// Attempts at a question if a signal ends the program or its guard: the answer becomes part of the address of every run.
 const TRIES: usize = 3;
 
 static NEVER: Interrupt = Interrupt::new();
@@ -48,8 +48,12 @@ pub(super) fn answer(
     };
     let mut tries = 0;
     loop {
-        let (status, text) = run(&job, Vec::new(), std::io::sink(), || false)?;
         tries += 1;
+        let (status, text) = match run(&job, Vec::new(), std::io::sink(), || false) {
+            // Whatever killed the guard may have been passing.
+            Err(FailureKind::Unguarded) if tries < TRIES => continue,
+            ended => ended?,
+        };
         if status.code().is_some() {
             let text = String::from_utf8_lossy(&text.unwrap_or_default()).into_owned();
             return Ok(status.success().then_some(text));

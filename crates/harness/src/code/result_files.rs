@@ -54,8 +54,12 @@ impl ResultFiles {
         run.outcome(&self.name, task, &self.root).map_err(|kind| {
             let program = self.name.definition().program.as_ref();
             let logs = program.map_or(&[][..], |program| &program.logs);
+            let directory = self.root.join(&run.directory);
+            let is_own = run.refuse_links(&self.root).is_ok();
             Box::new(Failure {
-                last_lines: last_lines(&self.root.join(&run.directory), logs),
+                last_lines: is_own
+                    .then(|| last_lines(&directory, logs))
+                    .unwrap_or_default(),
                 ..Failure::new(self.name.clone(), task, kind)
             })
         })

@@ -55,9 +55,13 @@ impl FileError {
         }
     }
 
-    /// Whether the disk or the user's quota is full.
+    /// Whether the disk or the user's quota is full, or the file would be longer than the user may write.
     pub fn is_full(&self) -> bool {
-        let full = [ErrorKind::StorageFull, ErrorKind::QuotaExceeded];
+        let full = [
+            ErrorKind::StorageFull,
+            ErrorKind::QuotaExceeded,
+            ErrorKind::FileTooLarge,
+        ];
         matches!(self, Self::Io { source, .. } if full.contains(&source.kind()))
     }
 

@@ -19,5 +19,5 @@ pub(crate) use draft::{
 pub use error::FileError;
 pub(crate) use error::parse_json;
 pub use read::{Links, read_bounded, system_text};
-pub(crate) use read::{kind, open_regular, read_beginning, read_end};
+pub(crate) use read::{kind, open_regular, read_beginning, read_end, refuse_linked};
 pub use results::Layout;

@@ -3,6 +3,7 @@
 //! A named pipe without a writer, a terminal or a device would otherwise block the program for ever. No other place
 //! in the program opens a file to read it (`tests/documents/architecture.rs`).
 
+use super::FileError;
 use nix::fcntl::OFlag;
 use std::fs::{self, File, Metadata, OpenOptions};
 use std::io::{Error, ErrorKind, Read, Seek, SeekFrom};
@@ -95,6 +96,22 @@ pub(crate) fn open_directory(path: &Path) -> std::io::Result<File> {
     let options = options.read(true);
     let flags = OFlag::O_DIRECTORY | OFlag::O_NONBLOCK;
     options.custom_flags(flags.bits()).open(path)
+}
+
+/// Refuses a `path`, relative to `root`, that leads through a symbolic link below `root`: what is read or written there
+/// would lie in somebody else's directory. What does not exist is no link.
+pub(crate) fn refuse_linked(root: &Path, path: &Path) -> Result<(), FileError> {
+    let above: Vec<&Path> = path.ancestors().skip(1).collect();
+    for part in above.into_iter().rev() {
+        let directory = root.join(part);
+        let found = fs::symlink_metadata(&directory);
+        if !part.as_os_str().is_empty() && found.is_ok_and(|found| found.is_symlink()) {
+            let message =
+                "it is a symbolic link; accepted is a directory that tristack plan has made";
+            return Err(FileError::content(&directory, message));
+        }
+    }
+    Ok(())
 }
 
 /// Refuses anything but a regular file.

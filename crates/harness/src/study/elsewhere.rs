@@ -5,7 +5,7 @@ use super::yield_force::{Measurement, Method, planned};
 use super::{MAX_TOLERANCE, RESOLUTIONS};
 use crate::code::{Code, FailureKind, PlannedRun, PreparedRun, ResultFiles, SettledCode, TaskKind};
 use crate::files::{FileError, Links, parse_json, read_bounded};
-use crate::model::{ContactTest, InvalidValue, Stack, exact};
+use crate::model::{ContactTest, InvalidValue, Stack, exact, readable};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
 use std::io::ErrorKind;
@@ -43,7 +43,8 @@ pub struct Plan {
     pub code: String,
     /// The folder that describes the code; absent for the codes that are part of tristack.
     pub folder: Option<PathBuf>,
-    /// Version of the program, if it was installed where the plan was made.
+    /// Version of the program, in plans of earlier versions of tristack: planning starts no program.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub version: Option<String>,
     /// The rows that are to be judged.
     pub rows: Vec<PlannedRow>,
@@ -79,7 +80,7 @@ impl Plan {
         Ok(Some(plan))
     }
 
-    /// Refuses invalid stacks and runs: somebody may have edited the file.
+    /// Refuses invalid stacks and runs, and those that stand there twice: somebody may have edited the file.
     fn check(&self) -> Result<(), String> {
         for row in &self.rows {
             row.stack.validate().map_err(|error| error.to_string())?;
@@ -89,6 +90,22 @@ impl Plan {
                     "`resolution` is {own}; accepted is {least:e} to {most}"
                 ));
             }
+        }
+        let mut rows = self.rows.iter().enumerate();
+        if let Some((index, row)) = rows.find(|(index, row)| self.rows[..*index].contains(row)) {
+            let (mu, stiffness) = (row.stack.floor_friction, row.stack.stiffness);
+            return Err(format!(
+                "`rows` has the row of mu {mu}, stiffness {stiffness} twice (number {}); accepted is each row once",
+                index + 1
+            ));
+        }
+        let mut known = BTreeSet::new();
+        let mut runs = self.runs.iter();
+        if let Some(run) = runs.find(|run| !known.insert(&run.deck_hash)) {
+            return Err(format!(
+                "`runs` has the run with the deck_hash {} twice; accepted is each run once",
+                readable(&run.deck_hash)
+            ));
         }
         self.runs.iter().try_for_each(PlannedRun::check)
     }
@@ -104,7 +121,6 @@ impl Plan {
         rows: Vec<PlannedRow>,
         root: &Path,
         command: &str,
-        version: Option<String>,
     ) -> Result<(Self, Vec<PreparedRun>), InvalidValue> {
         let (mut prepared, further) = micro_tests(code, root)?;
         // What single precision resolves, the micro-tests show.
@@ -130,7 +146,7 @@ impl Plan {
             tristack: env!("CARGO_PKG_VERSION").to_owned(),
             code: code.as_str().to_owned(),
             folder: code.folder().map(Path::to_owned),
-            version,
+            version: None,
             rows,
             continues: further || is_open,
             steps: runs.iter().map(|run| run.steps).sum(),

@@ -6,6 +6,7 @@ use super::view::{
 };
 use crate::code::ConventionKey;
 use crate::figures::{arm_svg, spread_svg, stiffness_svg, values_svg};
+use crate::model::sha256_hex;
 use crate::number::{digits, one_digit, relative, significant};
 use crate::study::Verdict;
 use crate::study::atlas::{
@@ -28,6 +29,9 @@ const TEMPLATES: [(&str, &str); 7] = [
     ("changes.html", include_str!("changes.html")),
     ("problems.html", include_str!("problems.html")),
 ];
+
+/// The script of the overview, which filters its rows. No other script runs on any page.
+const FILTER: &str = include_str!("filter.js");
 
 /// The page of the problems.
 const PROBLEMS: &str = "problems.html";
@@ -105,6 +109,7 @@ impl<'a> Site<'a> {
         let template = self.environment.get_template(template);
         let template = template.expect("the template was added");
         page["command"] = self.command.into();
+        page["filter_source"] = script_source(FILTER).into();
         let text = template.render(Shown::from(Serde(page)));
         text.expect("the template uses only what it is given")
             .into_bytes()
@@ -132,6 +137,7 @@ impl<'a> Site<'a> {
             "index.html",
             page!({
                 "title": "Atlas of contacts",
+                "filter": FILTER,
                 "headings": headings,
                 "differing": matrix.iter().filter(|row| !row.differing.is_empty()).collect::<Vec<_>>(),
                 "groups": groups.collect::<Vec<_>>(),
@@ -325,6 +331,25 @@ impl<'a> Site<'a> {
     }
 }
 
+/// Returns the source by which a content security policy accepts this `script`: its SHA-256 in base 64.
+fn script_source(script: &str) -> String {
+    const DIGITS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    let hex = sha256_hex(script.as_bytes());
+    let bits: String = hex
+        .chars()
+        .filter_map(|digit| digit.to_digit(16))
+        .map(|digit| format!("{digit:04b}"))
+        .collect();
+    let sixes = bits.as_bytes().chunks(6).map(|six| {
+        let value = (0..6).fold(0, |value, at| {
+            2 * value + usize::from(six.get(at) == Some(&b'1'))
+        });
+        char::from(DIGITS[value])
+    });
+    // 32 bytes are 43 digits, and one sign fills up the last group of four.
+    format!("sha256-{}=", sixes.collect::<String>())
+}
+
 /// Returns how many properties are as declared or asked for, and how many there are.
 fn counted(own: &NamedPassport) -> (usize, usize) {
     let properties = own.passport.properties.iter();
@@ -426,4 +451,16 @@ fn badge(own: &NamedPassport) -> String {
         first + 0.5 * second,
         second - 12.0,
     )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The digest of the empty text, by `openssl dgst -sha256 -binary | base64`.
+    #[test]
+    fn a_script_has_the_source_that_browsers_compute() {
+        let empty = "sha256-47DEQpj8HBSa+/TImW+5JCeuQeRkm5NMpJWZG3hSuFU=";
+        assert_eq!(script_source(""), empty);
+    }
 }

@@ -48,6 +48,8 @@ pub(super) struct Column<'a, R> {
     pub dispensable: Option<u8>,
     /// Whether verdicts in its cells are coloured.
     pub has_verdicts: bool,
+    /// Whether its texts come from outside, such as the version that a program states: they have no notation.
+    pub is_from_outside: bool,
 }
 
 impl<'a, R: 'a> Column<'a, R> {
@@ -80,6 +82,7 @@ impl<'a, R: 'a> Column<'a, R> {
             digits: self.digits,
             dispensable: self.dispensable,
             has_verdicts: self.has_verdicts,
+            is_from_outside: self.is_from_outside,
         }
     }
 }
@@ -135,6 +138,7 @@ impl<'a, R: 'a> Columns<'a, R> {
             cell: None,
             dispensable: None,
             has_verdicts: false,
+            is_from_outside: false,
         });
         self
     }
@@ -211,6 +215,13 @@ impl<'a, R: 'a> Columns<'a, R> {
     /// Leaves the column out of a terminal that is too narrow for all, in this `order`: the first to go has 1.
     pub(crate) fn dispensable(mut self, order: u8) -> Self {
         self.current().dispensable = Some(order);
+        self
+    }
+
+    /// Says that the texts of the column come from outside, so that dollar signs and backticks in them are no notation
+    /// on pages.
+    pub(crate) fn from_outside(mut self) -> Self {
+        self.current().is_from_outside = true;
         self
     }
 
@@ -327,6 +338,7 @@ impl<'a, R: 'a> Columns<'a, R> {
         let text = move |row: &R| Value::from(version(row));
         self.text("version", text)
             .means("version of the code")
+            .from_outside()
             .cell(move |row| or_dash(version(row)))
     }
 

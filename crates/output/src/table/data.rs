@@ -49,13 +49,16 @@ impl DataTable<'_> {
         all.filter_map(|column| Some((column.heading.as_deref()?, column)))
     }
 
-    /// Formats the machine-readable columns as CSV, with every digit.
+    /// Formats the machine-readable columns as CSV, with every digit. No text begins a formula of a spreadsheet.
     pub fn csv(&self) -> String {
         let mut writer = csv::Writer::from_writer(Vec::new());
         let header = writer.write_record(self.named().map(|column| column.name.as_ref()));
         header.expect("names are written to memory");
         for row in 0..self.rows {
-            let values: Vec<Value> = self.named().map(|column| column.value(&row)).collect();
+            let values: Vec<Value> = self
+                .named()
+                .map(|column| column.value(&row).in_csv())
+                .collect();
             let written = writer.serialize(values);
             written.expect("plain values are written to memory");
         }
@@ -73,6 +76,7 @@ impl DataTable<'_> {
             table.push(self.headed().map(|(_, column)| column.cell(&row)).collect());
         }
         let columns = self.headed().map(|(_, column)| column);
+        table.from_outside = self.from_outside();
         table.on_terminals(TerminalLook {
             dispensable: columns.clone().map(|column| column.dispensable).collect(),
             with_verdicts: columns.map(|column| column.has_verdicts).collect(),
@@ -91,7 +95,14 @@ impl DataTable<'_> {
             let cells = self.headed().map(|(_, column)| column.cell(&row));
             table.push(cells.map(in_mathematics).collect());
         }
+        table.from_outside = self.from_outside();
         table
+    }
+
+    /// Returns whether the texts of each column for people come from outside.
+    fn from_outside(&self) -> Vec<bool> {
+        let columns = self.headed();
+        columns.map(|(_, column)| column.is_from_outside).collect()
     }
 
     /// Returns the transposed table: a line for each column for people, with its unit, and a column for each row,

@@ -1,10 +1,11 @@
 //! A table of text cells for people, in every format.
 
 use super::look::{Limits, TerminalLook};
-use crate::text::{html_attribute, html_text, markdown_cell};
+use crate::text::{html_attribute, html_text, markdown_cell, without_mathematics};
 use comfy_table::{
     CellAlignment, ColumnConstraint, ContentArrangement, TableStyle, Width, presets,
 };
+use std::borrow::Cow;
 
 /// Blanks on both sides of the content of a cell.
 const PADDING: usize = 2;
@@ -19,6 +20,8 @@ pub struct Table {
     /// Whether a column holds numbers, aligned to the right.
     pub(super) numeric: Vec<bool>,
     pub(super) rows: Vec<Vec<String>>,
+    /// Whether the texts of a column come from outside, so that they have no notation: empty, or one for each column.
+    pub(super) from_outside: Vec<bool>,
     /// Anchors of the rows on a page: empty, or one for each row.
     pub(super) anchors: Vec<String>,
     pub(super) look: TerminalLook,
@@ -32,6 +35,7 @@ impl Table {
             headings,
             numeric,
             rows: Vec::new(),
+            from_outside: Vec::new(),
             anchors: Vec::new(),
             look: TerminalLook::default(),
         }
@@ -61,7 +65,23 @@ impl Table {
 
     /// Formats the table as Markdown.
     pub(crate) fn markdown(&self) -> String {
-        self.drawn(presets::ASCII_MARKDOWN, markdown_cell, None)
+        self.plain_outside()
+            .drawn(presets::ASCII_MARKDOWN, markdown_cell, None)
+    }
+
+    /// Returns the table with the marks of mathematics and code escaped in texts from outside.
+    fn plain_outside(&self) -> Cow<'_, Self> {
+        if !self.from_outside.contains(&true) {
+            return Cow::Borrowed(self);
+        }
+        let mut table = self.clone();
+        for row in &mut table.rows {
+            let cells = row.iter_mut().zip(&self.from_outside);
+            for (cell, _) in cells.filter(|(_, from_outside)| **from_outside) {
+                *cell = without_mathematics(cell);
+            }
+        }
+        Cow::Owned(table)
     }
 
     /// Draws the table in a style, within `limits` if there are any. Of the tables drawn so, only those for Markdown
@@ -117,6 +137,7 @@ impl Table {
         } else {
             ""
         };
+        let plain = self.plain_outside();
         let headings = self.headings.iter().zip(&self.numeric);
         let head = headings.map(|(heading, &numeric)| {
             format!(
@@ -125,7 +146,7 @@ impl Table {
                 html_text(heading)
             )
         });
-        let rows = self.rows.iter().enumerate().map(|(index, row)| {
+        let rows = plain.rows.iter().enumerate().map(|(index, row)| {
             let anchor = self.anchors.get(index);
             let anchor = anchor.map_or(String::new(), |anchor| format!(" id=\"{anchor}\""));
             format!("<tr{anchor}>{}</tr>\n", self.html_cells(row))
@@ -199,6 +220,23 @@ mod tests {
         let line = table().markdown().lines().nth(2).map(str::to_owned);
         let expected = "| z⋆ & `a_b` \\|x\\| < 1 |  ±5 % |";
         assert_eq!(line.as_deref(), Some(expected));
+    }
+
+    #[test]
+    fn what_comes_from_outside_is_no_mathematics_on_pages() {
+        let mut table = table();
+        table.rows[0][0] = "7 $\\input{/etc/passwd}$ & % # _ {} <b>".to_owned();
+        table.from_outside = vec![true, false];
+        let html = table.html();
+        let plain = "<td>7 $\\input{/etc/passwd}$ &amp; % # _ {} &lt;b&gt;</td>";
+        assert!(html.contains(plain), "{html}");
+        let markdown = table.markdown();
+        let plain = "7 \\$\\input{/etc/passwd}\\$ & % # _ {} &lt;b>";
+        assert!(markdown.contains(plain), "{markdown}");
+        let columns = [("a", false)].map(|(name, numeric)| (name.to_owned(), numeric));
+        let mut own = Table::new(columns);
+        own.push(vec!["$a$".to_owned()]);
+        assert!(own.html().contains("<math"));
     }
 
     #[test]

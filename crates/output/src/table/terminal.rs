@@ -135,6 +135,7 @@ impl Table {
             headings: texts(&self.headings),
             numeric: kept.iter().map(|&column| self.numeric[column]).collect(),
             rows: self.rows.iter().map(|row| texts(row)).collect(),
+            from_outside: Vec::new(),
             anchors: Vec::new(),
             look: TerminalLook {
                 dispensable: Vec::new(),

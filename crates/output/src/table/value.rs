@@ -21,6 +21,15 @@ impl Value {
         }
     }
 
+    /// Returns the value as CSV carries it. A spreadsheet would compute a text that begins like a formula, so that such a
+    /// text begins with an apostrophe, unless it is a number.
+    pub(super) fn in_csv(self) -> Self {
+        match self {
+            Self::Text(text) if begins_formula(&text) => Self::Text(format!("'{text}")),
+            other => other,
+        }
+    }
+
     /// Formats the value for people, its numbers by `digits`.
     pub(crate) fn shown(&self, digits: fn(f64) -> String) -> String {
         match self {
@@ -32,6 +41,11 @@ impl Value {
             Self::Flag(false) => "no".to_owned(),
         }
     }
+}
+
+/// Whether a spreadsheet would take `text` for a formula.
+fn begins_formula(text: &str) -> bool {
+    text.starts_with(['=', '+', '-', '@', '\t', '\r', '\n']) && text.parse::<f64>().is_err()
 }
 
 /// JSON type of the values of a column.
@@ -150,5 +164,31 @@ impl From<String> for Value {
 impl<T: Into<Value>> From<Option<T>> for Value {
     fn from(value: Option<T>) -> Self {
         value.map_or(Self::Missing, Into::into)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_text_in_csv_begins_a_formula_and_numbers_stay_numbers() {
+        for hostile in [
+            "=HYPERLINK(\"x\")",
+            "+1+1",
+            "-2+3",
+            "@SUM(A1)",
+            "\t=1",
+            "\r=1",
+            "\n=1",
+            "-",
+        ] {
+            let expected = Value::Text(format!("'{hostile}"));
+            assert_eq!(Value::from(hostile).in_csv(), expected);
+        }
+        for harmless in ["-0.5", "+1e-3", "1 = 1", "", "a-b", "'=1"] {
+            assert_eq!(Value::from(harmless).in_csv(), Value::from(harmless));
+        }
+        assert_eq!(Value::from(-0.5).in_csv(), Value::from(-0.5));
     }
 }

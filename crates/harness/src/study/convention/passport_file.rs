@@ -1,14 +1,20 @@
 //! A passport as read from its file.
 
+use super::finding::TOLERANCE;
 use super::passport::PASSPORT;
-use crate::code::Identity;
+use crate::code::{ConventionKey, Identity};
 use crate::model::sha256_hex;
 use crate::study::Verdict;
 use serde::{Deserialize, Deserializer};
+use std::collections::BTreeSet;
 use thiserror::Error;
 
 /// Digits of the digest in a permanent name.
 const DIGEST_DIGITS: usize = 8;
+/// The part of a name that stands for a text without letters and digits.
+const NAMELESS: &str = "none";
+/// Largest number of letters of a part of a name: three parts and the digest fit into the name of a file.
+const LONGEST_PART: usize = 64;
 
 /// A passport, read. The fields are described by `tristack schema passport`.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
@@ -117,6 +123,9 @@ pub enum UnreadablePassport {
     /// It has another schema.
     #[error("`schema` is `{0}`; accepted is {PASSPORT}, as tristack probe --out writes it")]
     OtherSchema(String),
+    /// It contradicts itself, or has a number that no probe writes.
+    #[error("{0}; accepted is a passport as tristack probe --out writes it")]
+    Contradictory(String),
 }
 
 impl PassportFile {
@@ -130,6 +139,9 @@ impl PassportFile {
             return Err(UnreadablePassport::OtherSchema(schema));
         }
         let mut passport: Self = serde_json::from_slice(text)?;
+        passport
+            .check()
+            .map_err(UnreadablePassport::Contradictory)?;
         if passport.software.is_empty() {
             passport.software.clone_from(&passport.title);
         }
@@ -137,6 +149,65 @@ impl PassportFile {
             passport.style.clone_from(&passport.code);
         }
         Ok(passport)
+    }
+
+    /// Refuses what no probe writes: somebody may have edited the file.
+    fn check(&self) -> Result<(), String> {
+        let keys = self.convention.iter();
+        // A rule may differ although its word is not known.
+        let keys = keys.map(|row| (&row.key, true, row.uncertainty, row.verdict));
+        let properties = self.properties.iter().map(|row| {
+            let is_known = row.measured.is_some();
+            (&row.property, is_known, row.uncertainty, row.verdict)
+        });
+        let mut names = BTreeSet::new();
+        for (name, is_known, uncertainty, verdict) in keys.chain(properties) {
+            if !names.insert(name) {
+                return Err(format!("`{name}` stands there twice"));
+            }
+            if uncertainty.is_some_and(|open| open < 0.0) {
+                let open = uncertainty.unwrap_or_default();
+                return Err(format!("the uncertainty of `{name}` is {open}, below 0"));
+            }
+            if !is_known && matches!(verdict, Verdict::Agrees | Verdict::Differs) {
+                return Err(format!(
+                    "`{name}` has the verdict `{verdict}`, but no measured value"
+                ));
+            }
+            if verdict == Verdict::Differs && self.verdict == Verdict::Agrees {
+                return Err(format!(
+                    "`{name}` has the verdict `differs`, but the passport as a whole `agrees`"
+                ));
+            }
+        }
+        let forces = self.arm_effects.iter();
+        let mut uncertainties = forces.filter_map(|row| row.uncertainty);
+        if let Some(open) = uncertainties.find(|open| *open < 0.0) {
+            return Err(format!("the uncertainty of a force is {open}, below 0"));
+        }
+        for key in ConventionKey::ARMS {
+            self.check_arm(key)?;
+        }
+        Ok(())
+    }
+
+    /// Refuses an arm that is one number as a rule of the convention, and another one as a property.
+    fn check_arm(&self, key: ConventionKey) -> Result<(), String> {
+        let name = key.as_str();
+        let property = name.trim_start_matches("convention.").replace('.', "_");
+        let rule = self.key(name).and_then(KeyRow::number);
+        let row = self.property(&property);
+        let row = row.and_then(|row| row.measured.zip(row.uncertainty));
+        match rule.zip(row) {
+            Some(((rule, first), (number, second)))
+                if (rule - number).abs() > TOLERANCE + 2.0 * (first + second) =>
+            {
+                Err(format!(
+                    "`{name}` is {rule}, but `{property}`, the same arm, {number}"
+                ))
+            }
+            _ => Ok(()),
+        }
     }
 
     /// Why it may not know what another passport of the same contacts does; absent for motions in double precision with
@@ -202,10 +273,36 @@ pub fn permanent_name(passport: &PassportFile, text: &[u8]) -> String {
     format!("{}_{}", parts.join("_"), &digest[..DIGEST_DIGITS])
 }
 
-/// `text` in lower-case letters, digits and points, with a hyphen for everything between them.
+/// `text` in lower-case letters, digits and points, with a hyphen for everything between them. No word begins or ends
+/// with a point, so that no name is hidden or leads out of its directory; a text without letters and digits is `none`.
 pub fn plain(text: &str) -> String {
     let lower = text.to_lowercase();
     let words = lower.split(|char: char| !(char.is_ascii_alphanumeric() || char == '.'));
+    let words = words.map(|word| word.trim_matches('.'));
     let words: Vec<&str> = words.filter(|word| !word.is_empty()).collect();
-    words.join("-")
+    match words.join("-") {
+        name if name.is_empty() => NAMELESS.to_owned(),
+        name => name.chars().take(LONGEST_PART).collect(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_name_is_hidden_leads_elsewhere_or_is_too_long() {
+        for (text, name) in [
+            ("../../x", "x"),
+            (".hidden", "hidden"),
+            ("a/../b", "a-b"),
+            ("..", NAMELESS),
+            ("", NAMELESS),
+            ("$\\input{x}$", "input-x"),
+            ("LAMMPS 23.06", "lammps-23.06"),
+        ] {
+            assert_eq!(plain(text), name, "{text}");
+        }
+        assert_eq!(plain(&"long".repeat(99)).len(), LONGEST_PART);
+    }
 }

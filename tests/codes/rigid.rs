@@ -79,7 +79,7 @@ fn rigid_bodies_give_way_at_the_exact_force_or_jam() {
 }
 
 /// Mistakes, with the item of a check that fails first and words in it, and the verdict of a crosscheck at mu = 0.2.
-const MISTAKES: [(&str, &str, &str, &str, &str); 9] = [
+const MISTAKES: [(&str, &str, &str, &str, &str); 10] = [
     (
         "task[\"floor_friction\"], (0.0, 1.0)",
         "1.001 * task[\"floor_friction\"], (0.0, 1.0)",
@@ -90,8 +90,8 @@ const MISTAKES: [(&str, &str, &str, &str, &str); 9] = [
     (
         "Contact(*two, task[\"cylinder_friction\"])",
         "Contact(*two, task[\"floor_friction\"])",
-        "rolling",
-        "slip on each other",
+        "force while it slides",
+        "falls under its own weight",
         "differs",
     ),
     (
@@ -125,8 +125,15 @@ const MISTAKES: [(&str, &str, &str, &str, &str); 9] = [
     (
         "body.spin -= RADIUS * tangential",
         "body.spin -= 0.9 * RADIUS * tangential",
+        "fall under its own weight",
+        "moment of inertia",
+        "agrees",
+    ),
+    (
+        "self.nx * vy - self.ny * vx - RADIUS *",
+        "self.nx * vy - self.ny * vx - 0.9 * RADIUS *",
         "rolling",
-        "",
+        "another radius",
         "differs",
     ),
     (

@@ -143,7 +143,7 @@ fn agreement(judgements: &[Judgement]) -> DataTable<'_> {
     Columns::<&Judgement>::for_people()
         .left("code", |row| row.code.to_string())
         .left("version", |row| row.version.clone())
-        .from_outside()
+        .of_outside()
         .left("runs", |row| row.source.as_str().to_owned())
         .right("rows that agree", move |row| {
             let agreeing = rows_of(row).filter(|own| own.verdict() == Verdict::Agrees);

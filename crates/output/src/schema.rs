@@ -121,7 +121,13 @@ fn task() -> Value {
     let kinds = TaskKind::ALL.map(|kind| (kind.as_str(), kind.parameters_schema()));
     let about = "Parameters of a task, one object of numbers and lists, in the units r = m = k_n = 1; decks with `content = \"deck\"` are \
                  given fewer, and no lists.";
-    one_of(about, kinds)
+    // What a rigid stack is given is a part of what an elastic one is.
+    let mut schema = one_of(about, kinds);
+    if let Some(keywords) = schema.as_object_mut() {
+        let parts = keywords.remove("oneOf");
+        keywords.extend(parts.map(|parts| ("anyOf".to_owned(), parts)));
+    }
+    schema
 }
 
 fn manifest() -> Value {

@@ -57,9 +57,10 @@ impl ResultFiles {
             let directory = self.root.join(&run.directory);
             let is_own = run.refuse_links(&self.root).is_ok();
             Box::new(Failure {
-                last_lines: is_own
-                    .then(|| last_lines(&directory, logs))
-                    .unwrap_or_default(),
+                last_lines: match is_own {
+                    true => last_lines(&directory, logs),
+                    false => Vec::new(),
+                },
                 ..Failure::new(self.name.clone(), task, kind)
             })
         })

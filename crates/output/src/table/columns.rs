@@ -220,7 +220,7 @@ impl<'a, R: 'a> Columns<'a, R> {
 
     /// Says that the texts of the column come from outside, so that dollar signs and backticks in them are no notation
     /// on pages.
-    pub(crate) fn from_outside(mut self) -> Self {
+    pub(crate) fn of_outside(mut self) -> Self {
         self.current().is_from_outside = true;
         self
     }
@@ -338,7 +338,7 @@ impl<'a, R: 'a> Columns<'a, R> {
         let text = move |row: &R| Value::from(version(row));
         self.text("version", text)
             .means("version of the code")
-            .from_outside()
+            .of_outside()
             .cell(move |row| or_dash(version(row)))
     }
 

@@ -76,7 +76,7 @@ impl DataTable<'_> {
             table.push(self.headed().map(|(_, column)| column.cell(&row)).collect());
         }
         let columns = self.headed().map(|(_, column)| column);
-        table.from_outside = self.from_outside();
+        table.from_outside = self.of_outside();
         table.on_terminals(TerminalLook {
             dispensable: columns.clone().map(|column| column.dispensable).collect(),
             with_verdicts: columns.map(|column| column.has_verdicts).collect(),
@@ -95,12 +95,12 @@ impl DataTable<'_> {
             let cells = self.headed().map(|(_, column)| column.cell(&row));
             table.push(cells.map(in_mathematics).collect());
         }
-        table.from_outside = self.from_outside();
+        table.from_outside = self.of_outside();
         table
     }
 
     /// Returns whether the texts of each column for people come from outside.
-    fn from_outside(&self) -> Vec<bool> {
+    fn of_outside(&self) -> Vec<bool> {
         let columns = self.headed();
         columns.map(|(_, column)| column.is_from_outside).collect()
     }

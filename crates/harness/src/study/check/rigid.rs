@@ -9,7 +9,7 @@ use crate::code::{InstalledCode, Run};
 use crate::model::{Case, Stack};
 use crate::series::{RigidReading, Summary};
 use crate::study::MAX_TOLERANCE;
-use crate::study::yield_force::{JAMMED, ROLLS, STOOD, rigid_case};
+use crate::study::yield_force::{FELL, JAMMED, ROLLS, STOOD, rigid_case};
 
 /// Floor friction of the stack that slides under the wall.
 const FRICTION: f64 = 0.2;
@@ -91,6 +91,19 @@ fn while_it_slides(reading: &RigidReading, case: &Case) -> Vec<Item> {
         .unwrap_or_default();
     let load = stack.floor_load(reference);
     let allowed = MAX_TOLERANCE * load;
+    if let Some(slid) = reading.slid.filter(|slid| *slid > FELL) {
+        return vec![failed(
+            SLIDES,
+            format!("{reference:.6} m g where the wall begins; without the wall the stack stands"),
+            format!(
+                "it falls under its own weight: cylinders 2 and 3 go {slid:.1} times as far as the wall makes them go"
+            ),
+            &[
+                "`cylinder_friction` is not that between cylinders",
+                "`floor_friction` is not that of the floor, or friction does not turn the cylinders",
+            ],
+        )];
+    }
     let mut items = Vec::new();
     items.push(match reading.unbalanced {
         off if off.abs() <= allowed => passed(BALANCE, "3 m g and the force of the wall".to_owned()),
@@ -261,7 +274,7 @@ fn slips_on_each_other(run: &Run, case: &Case) -> Item {
         .and_then(|reading| reading.slid);
     let friction = case.stack.cylinder_friction;
     match slid {
-        Some(slid) if slid > 2.0 => passed(
+        Some(slid) if slid > FELL => passed(
             PAIRS,
             format!("with {friction:.4} they slip, and the stack falls"),
         ),

@@ -30,7 +30,7 @@ pub use plan::{
 };
 pub(crate) use plan::{REST_TIME, largest_levers, planned, ramp_time};
 pub use profile::{PAPER_STIFFNESSES, Profile, new_seed};
-pub(crate) use rigid::{JAMMED, ROLLS, STOOD, rigid_case};
+pub(crate) use rigid::{FELL, JAMMED, ROLLS, STOOD, rigid_case};
 pub(crate) use runs::{COARSE_TIME_STEP_RUN, SPEEDS};
 pub use runs::{MIDDLE_RUN, Method, RunRoles, SHORT_RAMP_RUN};
 pub use series::{FoundSeries, JudgedSeries, SeriesInput, compared_run, judge_series};

@@ -32,6 +32,8 @@ const COARSE: usize = 2;
 
 /// Part of the way that cylinders 2 and 3 must go with the wall from which on they have given way.
 const GAVE_WAY: f64 = 0.5;
+/// The same from which on they go faster than the wall: nothing holds them.
+pub(crate) const FELL: f64 = 2.0;
 /// The same up to which they have not.
 pub(crate) const STOOD: f64 = 0.01;
 /// Wall force in m g that shows a jam. With a floor friction of 0.0005 below the critical one bodies give way under it.
@@ -143,6 +145,13 @@ impl Reader<'_> {
                  force ends at {last:.6}, where a jam shows from {JAMMED} on",
                 100.0 * slid.iter().copied().fold(0.0, f64::max)
             ))),
+            Some(_) if slid.iter().all(|slid| *slid > FELL) => {
+                let least = slid.iter().copied().fold(f64::INFINITY, f64::min);
+                self.grounds.add(Ground::Violation(format!(
+                    "it falls under its own weight, which it must bear: cylinders 2 and 3 go {least:.1} times as far as the wall \
+                     makes them go"
+                )));
+            }
             Some(_) if !gives_way => self.grounds.add(Ground::NoYield(Some(format!(
                 "it does not give way: cylinders 2 and 3 go {:.1} % of the way that the wall makes them go, and the wall force \
                  ends at {last:.6}",

@@ -11,6 +11,7 @@ use tristack::theory::rigid_limit;
 const EXAMPLE: &str = "examples/contact-dynamics";
 const SCRIPT: &str = "contact_dynamics.py";
 const MIGFLOW: &str = "examples/migflow";
+const SICONOS: &str = "examples/siconos";
 
 /// A bench with the example as `rigid`, after some replacements in its script, and its manifest changed.
 fn bench(change: &[[&str; 2]], manifest: impl FnOnce(String) -> String) -> Bench {
@@ -228,7 +229,11 @@ fn manifests_of_rigid_codes_have_one_task_and_no_convention() {
 /// The rows of codes with rigid bodies that were recorded are judged by the limit of today.
 #[test]
 fn recorded_rows_of_rigid_codes_have_the_limit_of_today() {
-    for (folder, name) in [(EXAMPLE, "contact-dynamics"), (MIGFLOW, "migflow")] {
+    for (folder, name) in [
+        (EXAMPLE, "contact-dynamics"),
+        (MIGFLOW, "migflow"),
+        (SICONOS, "siconos"),
+    ] {
         let path = project().join(folder);
         let code = Code::in_folder(&path, None).expect("a folder in order");
         assert!(code.is_rigid() && code.as_str() == name);
@@ -261,24 +266,37 @@ fn recorded_rows_of_rigid_codes_have_the_limit_of_today() {
     }
 }
 
-#[test]
-fn migflow_agrees_where_it_is_installed() {
-    if installed_in_folder(MIGFLOW).is_none() {
-        return eprintln!("migflow is not installed: its live test is skipped");
+/// Two rows of a code that does not come with tristack, and a jam.
+fn agrees_where_it_is_installed(example: &str) {
+    let installed = installed_in_folder(example).and_then(|code| code.find());
+    if installed.is_none_or(|found| found.broken().is_some()) {
+        return eprintln!("the code of {example} is not installed: its live test is skipped");
     }
     let bench = Bench::with_system_programs();
-    let folder = project().join(MIGFLOW);
+    let folder = project().join(example);
     let line = format!(
-        "crosscheck --codes {} --mu 0.1,0.2 --format json",
+        "crosscheck --codes {} --mu 0.1,0.2,0.3 --format json",
         folder.display()
     );
     let (status, judged, messages) = rows(&bench, &line);
-    assert_eq!((status, judged.len()), (0, 2), "{messages}");
+    assert_eq!((status, judged.len()), (0, 3), "{messages}");
     for row in judged {
+        let Some(error) = row["error"].as_f64() else {
+            assert_eq!(row["verdict"], "no-yield", "{messages}");
+            assert_eq!(row["mu"], 0.3);
+            continue;
+        };
         assert_eq!(row["verdict"], "agrees", "{messages}");
-        assert!(
-            row["error"].as_f64().expect("an error").abs() < 1e-5,
-            "{row}"
-        );
+        assert!(error.abs() < 1e-5, "{row}");
     }
+}
+
+#[test]
+fn migflow_agrees_where_it_is_installed() {
+    agrees_where_it_is_installed(MIGFLOW);
+}
+
+#[test]
+fn siconos_agrees_where_it_is_installed() {
+    agrees_where_it_is_installed(SICONOS);
 }

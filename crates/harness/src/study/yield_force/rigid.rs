@@ -34,10 +34,10 @@ const COARSE: usize = 2;
 const GAVE_WAY: f64 = 0.5;
 /// The same from which on they go faster than the wall: nothing holds them.
 pub(crate) const FELL: f64 = 2.0;
-/// The same up to which they have not.
-pub(crate) const STOOD: f64 = 0.01;
-/// Wall force in m g that shows a jam. With a floor friction of 0.0005 below the critical one bodies give way under it.
-pub(crate) const JAMMED: f64 = 1e3;
+/// The same up to which they have not: of a problem without a solution, iterative solvers leave some percent.
+pub(crate) const STOOD: f64 = 0.05;
+/// Wall force in m g that shows a jam. With a floor friction of 0.005 below the critical one bodies give way under it.
+pub(crate) const JAMMED: f64 = 100.0;
 /// Part of its rotation by which a cylinder may turn more or less than one that rolls.
 pub(crate) const ROLLS: f64 = 0.01;
 

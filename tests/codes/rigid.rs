@@ -269,7 +269,8 @@ fn recorded_rows_of_rigid_codes_have_the_limit_of_today() {
 /// Two rows of a code that does not come with tristack, and a jam.
 fn agrees_where_it_is_installed(example: &str) {
     let installed = installed_in_folder(example).and_then(|code| code.find());
-    if installed.is_none_or(|found| found.broken().is_some()) {
+    // Python may be there without the package, and then does not say its version.
+    if installed.is_none_or(|found| found.identity().version == "unknown") {
         return eprintln!("the code of {example} is not installed: its live test is skipped");
     }
     let bench = Bench::with_system_programs();

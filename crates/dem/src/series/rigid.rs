@@ -35,7 +35,7 @@ pub struct RigidReading {
     pub unbalanced: f64,
     /// Difference of the normal forces of the floor on cylinders 2 and 3: the mean over the rows.
     pub asymmetry: f64,
-    /// |t|/n at the floor: the mean over the rows.
+    /// |t|/n at the floor, 0 in rows where that bears nothing: the mean over the rows.
     pub friction: f64,
 }
 
@@ -89,8 +89,12 @@ impl RigidReading {
             }),
             friction: mean(&|row| {
                 let contacts = row.floor_contacts(stack);
-                let load: f64 = row.borne(stack);
-                contacts.map(|own| own.tangential.abs()).sum::<f64>() / load
+                let (load, tangential) =
+                    (row.borne(stack), contacts.map(|own| own.tangential.abs()));
+                match load > 0.0 {
+                    true => tangential.sum::<f64>() / load,
+                    false => 0.0,
+                }
             }),
         })
     }
